@@ -2,6 +2,7 @@
 
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
+use batten::geometry::expressions::LengthUnit;
 use batten::geometry::{Continuity, End};
 use batten::io::{FileMatch, MatchSource};
 use glam::DVec3;
@@ -160,6 +161,39 @@ pub fn cases() -> Vec<Case> {
         Case::new("hidden and active", vec![planar, hidden]).with_active(1),
         Case::new("empty", Vec::new()),
     ]
+}
+
+/// A document of another program: two curves, the first of which may follow the second.
+#[derive(Clone, Copy, Debug)]
+pub struct Foreign {
+    /// Its unit.
+    pub unit: Option<LengthUnit>,
+    /// What its curves are made of.
+    pub seed: u64,
+    /// How much of the second curve's end the first curve's start takes.
+    pub follows: Option<Continuity>,
+}
+
+impl Foreign {
+    /// Make the document.
+    pub fn document(self) -> Document {
+        let seeds = [self.seed, self.seed + 1];
+        let curves = seeds.map(|seed| curve(Kind { seed, ..PLANAR }));
+        let document = Document::from_curves(curves).with_unit(self.unit);
+        let ids: Vec<CurveId> = document.ids().collect();
+        let matched = self.follows.map(|continuity| {
+            Edit::SetMatch(EndMatch {
+                curve: ids[0],
+                end: End::Start,
+                source: ids[1],
+                place: MatchPlace::End(End::Finish),
+                continuity,
+                reversed: false,
+            })
+        });
+        let document = document.edited(matched);
+        document.expect("a match of two open curves")
+    }
 }
 
 const PLANAR: Kind = Kind {

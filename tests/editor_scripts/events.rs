@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::laws::check_written;
 use super::places::Place;
 use super::watch::{Done, Watch};
-use super::window::{Panel, Replacement, Window};
+use super::window::{OfFile, Panel, Replacement, Window};
 
 /// What stands in a failure between the law that is broken and what broke it.
 pub const AFTER: &str = " — after ";
@@ -258,6 +258,7 @@ impl Player {
             self.watch.expect_field();
         }
         let (values, is_applied) = (self.window.values(), self.is_applied());
+        let opening = self.window.opening();
         self.window.panel(panel);
         if let Panel::SetAnyValue(..) | Panel::SetValue(..) = panel
             && self.window.values().is_none() != values.is_none()
@@ -271,6 +272,9 @@ impl Player {
             Panel::SetValue(..) | Panel::SetAnyValue(..) if is_applied => Done::Amend,
             Panel::Replace(Replacement::MissingFile) => Done::Other,
             Panel::Replace(_) => Done::Replace,
+            Panel::File(_) if self.window.opening() != opening => Done::Replace,
+            Panel::File(OfFile::Reload) => Done::Reload,
+            Panel::File(OfFile::Save | OfFile::Change(_)) => Done::Look,
             Panel::Cut => Done::Delete,
             Panel::Transform(_) => Done::Transform,
             _ => Done::Other,

@@ -2,7 +2,7 @@
 
 use batten::document::{Curve, Document, Reference};
 use batten::editor::Selection;
-use batten::geometry::FloatPolygon;
+use batten::geometry::{Continuity, End, FloatPolygon};
 use batten::io::{MatchSource, PROJECT, Reading};
 use glam::DVec3;
 
@@ -75,6 +75,49 @@ pub fn check_selection(document: &Document, selection: &Selection) -> Result<(),
                 Err("vertices are selected, and none of the active curve".into())
             }
         }
+    }
+}
+
+/// What of two ends counts as the same place, in units of their coordinates or 1.
+const SAME: f64 = 1e-7;
+
+/// An end that counts as met lies where it is to be and goes on in that direction, and the canvas shows of
+/// every visible end whether it does.
+pub fn check_matches(window: &Window) -> Result<(), String> {
+    let document = window.document();
+    for matched in document.matches().filter(|matched| document.meets(matched)) {
+        let curve = document.curve(matched.curve);
+        let source = document.shape(matched.source);
+        let (Some(curve), Some(source)) = (curve, source) else {
+            return Err(format!("{matched:?} is of what is not there"));
+        };
+        let own = curve.polygon.end_jet(matched.end);
+        let other = matched.place.jet(source);
+        let other = other.ok_or(format!("{matched:?} has no place"))?;
+        let reach = other.point.abs().max_element().max(1.0);
+        if own.point.distance(other.point) > SAME * reach {
+            return Err(format!("{matched:?} is not met: {own:?}, {other:?}"));
+        }
+        if let (true, Some(own), Some(other)) = (
+            matched.continuity >= Continuity::G1,
+            own.tangent(),
+            other.tangent(),
+        ) && own.cross(other).length() > SAME
+        {
+            return Err(format!("{matched:?} goes elsewhere: {own}, {other}"));
+        }
+    }
+    let Some(shown) = window.shown_matches() else {
+        return Ok(());
+    };
+    let visible = document.curves().filter(|(_, curve)| curve.visible);
+    let ends = visible.flat_map(|(id, _)| End::BOTH.map(|end| document.match_of(id, end)));
+    let expected: Vec<bool> = ends.flatten().map(|it| document.meets(it)).collect();
+    match shown == expected {
+        true => Ok(()),
+        false => Err(format!(
+            "matches are shown as met {shown:?}, not {expected:?}"
+        )),
     }
 }
 

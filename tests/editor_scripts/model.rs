@@ -12,8 +12,9 @@
 use std::cell::Cell;
 use std::path::Path;
 
-use batten::document::{Curve, Document};
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
 use batten::editor::{Button, Command, EndFitAction, Key, Modifiers, Transformation};
+use batten::geometry::expressions::LengthUnit;
 use batten::geometry::{Continuity, End, PolygonKind};
 use batten::io::disk;
 use batten::io::examples::EXAMPLES;
@@ -24,11 +25,11 @@ use proptest::sample::select;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
 
 use super::common::Kind;
-use super::documents::with_targets;
+use super::documents::{Foreign, with_targets};
 use super::events::{Event, Player};
 use super::laws::{check_read, check_written};
 use super::places::Place;
-use super::window::{CANVAS, OfCurve, Panel, Replacement};
+use super::window::{CANVAS, OfCurve, OfFile, Panel, Replacement};
 
 /// The seed of a run without another.
 const SEED: u64 = 2026;
@@ -70,15 +71,15 @@ fn random_scripts_keep_every_law() {
     while played < wanted {
         let script = strategy.new_tree(&mut runner).expect("a script");
         let steps = Cell::new(0);
-        let result = runner.run_one(script, |(document, events)| {
+        let result = runner.run_one(script, |(start, events)| {
             steps.set(0);
-            play(document, &events, &file, &steps).map_err(TestCaseError::fail)
+            play(start, &events, &file, &steps).map_err(TestCaseError::fail)
         });
         match result {
             Ok(_) => {}
-            Err(TestError::Fail(reason, (curves, events))) => {
+            Err(TestError::Fail(reason, (start, events))) => {
                 panic!(
-                    "seed {seed}, after {played} steps: {reason}\n{curves:#?}\n{}",
+                    "seed {seed}, after {played} steps: {reason}\n{start:#?}\n{}",
                     listed(&events)
                 )
             }
@@ -103,14 +104,8 @@ fn listed(events: &[Event]) -> String {
 
 /// Play a script and count its steps; every so often make what panels read, write a file and
 /// read it, and at the end undo all and redo all.
-fn play(
-    curves: Vec<Drawn>,
-    events: &[Event],
-    file: &Path,
-    steps: &Cell<usize>,
-) -> Result<(), String> {
-    let curves = curves.into_iter().map(Drawn::curve);
-    let mut player = Player::new(Document::from_curves(curves));
+fn play(start: Start, events: &[Event], file: &Path, steps: &Cell<usize>) -> Result<(), String> {
+    let mut player = Player::new(start.document());
     for (number, event) in events.iter().enumerate() {
         if is_too_much(event, &player) {
             continue;
@@ -184,7 +179,63 @@ fn is_too_much(event: &Event, player: &Player) -> bool {
         }
         Event::Command(Command::Duplicate) => is_large,
         Event::Panel(Panel::SetValue(..) | Panel::Paste(_) | Panel::CopyAndPaste) => is_large,
+        Event::Panel(Panel::File(OfFile::Import(_) | OfFile::AnswerUnit(_))) => is_large,
         _ => false,
+    }
+}
+
+/// A document that a script begins with.
+#[derive(Clone, Debug)]
+struct Start {
+    curves: Vec<Drawn>,
+    matches: Vec<Matched>,
+    unit: Option<LengthUnit>,
+}
+
+/// An end that follows a place of another curve. Curves are counted from 0 and round again.
+#[derive(Clone, Debug)]
+struct Matched {
+    curve: usize,
+    end: End,
+    source: usize,
+    /// A share of the way along the source; its ends are ends.
+    along: f64,
+    continuity: Continuity,
+    reversed: bool,
+}
+
+impl Start {
+    /// Make the document. Matches that cannot be, as of periodic curves, are left out.
+    fn document(self) -> Document {
+        let curves = self.curves.into_iter().map(Drawn::curve);
+        let document = Document::from_curves(curves).with_unit(self.unit);
+        let ids: Vec<CurveId> = document.ids().collect();
+        let set = |document: Document, matched: Matched| {
+            let edit = matched.edit(&ids, &document);
+            let edited = edit.and_then(|edit| document.edited([edit]).ok());
+            edited.unwrap_or(document)
+        };
+        self.matches.into_iter().fold(document, set)
+    }
+}
+
+impl Matched {
+    fn edit(self, ids: &[CurveId], document: &Document) -> Option<Edit> {
+        let id = |number: usize| ids.get(number.checked_rem(ids.len())?).copied();
+        let source = id(self.source)?;
+        let place = match self.along {
+            0.0 => MatchPlace::End(End::Start),
+            1.0 => MatchPlace::End(End::Finish),
+            share => MatchPlace::Parameter(share * document.shape(source)?.pieces() as f64),
+        };
+        Some(Edit::SetMatch(EndMatch {
+            curve: id(self.curve)?,
+            end: self.end,
+            source,
+            place,
+            continuity: self.continuity,
+            reversed: self.reversed,
+        }))
     }
 }
 
@@ -214,8 +265,46 @@ impl Drawn {
     }
 }
 
-fn documents() -> impl Strategy<Value = Vec<Drawn>> {
-    prop::collection::vec(drawn(), 0..4)
+fn documents() -> impl Strategy<Value = Start> {
+    let curves = prop::collection::vec(drawn(), 0..4);
+    let matches = prop::collection::vec(matched(), 0..3);
+    (curves, matches, unit()).prop_map(|(curves, matches, unit)| Start {
+        curves,
+        matches,
+        unit,
+    })
+}
+
+fn matched() -> impl Strategy<Value = Matched> {
+    let along = prop_oneof![Just(0.0), Just(1.0), 0.1..0.9f64];
+    let curves = (0..4usize, 0..4usize);
+    (curves, end(), along, continuity(), any::<bool>()).prop_map(
+        |((curve, source), end, along, continuity, reversed)| Matched {
+            curve,
+            end,
+            source,
+            along,
+            continuity,
+            reversed,
+        },
+    )
+}
+
+fn continuity() -> impl Strategy<Value = Continuity> {
+    select(&Continuity::ALL[..])
+}
+
+fn unit() -> impl Strategy<Value = Option<LengthUnit>> {
+    prop::option::of(select(&LengthUnit::ALL[..]))
+}
+
+fn foreign() -> impl Strategy<Value = Foreign> {
+    let follows = prop::option::of(continuity());
+    (unit(), 0..1000u64, follows).prop_map(|(unit, seed, follows)| Foreign {
+        unit,
+        seed,
+        follows,
+    })
 }
 
 fn drawn() -> impl Strategy<Value = Drawn> {
@@ -359,6 +448,7 @@ fn panel() -> impl Strategy<Value = Panel> {
         8 => list(),
         6 => end_fit().prop_map(Panel::EndFit),
         6 => dialogs(),
+        6 => files().prop_map(Panel::File),
         14 => operations(),
         5 => view(),
     ]
@@ -410,7 +500,7 @@ fn end_fit() -> impl Strategy<Value = EndFitAction> {
         1 => prop::option::of(number_of_any_kind()).prop_map(EndFitAction::SetSlope),
         1 => Just(EndFitAction::ClearTarget),
         2 => Just(EndFitAction::PickFromCurve),
-        1 => (0..4_usize).prop_map(|level| EndFitAction::SetContinuity(Continuity::ALL[level])),
+        1 => continuity().prop_map(EndFitAction::SetContinuity),
         2 => any::<bool>().prop_map(EndFitAction::KeepMatched),
         1 => Just(EndFitAction::TurnRound),
         2 => Just(EndFitAction::Translate),
@@ -418,6 +508,18 @@ fn end_fit() -> impl Strategy<Value = EndFitAction> {
         2 => Just(EndFitAction::Repeat),
         2 => Just(EndFitAction::BothAtOnce),
         1 => number_of_any_kind().prop_map(EndFitAction::SetTolerance),
+    ]
+}
+
+/// What happens to files.
+fn files() -> impl Strategy<Value = OfFile> {
+    prop_oneof![
+        3 => Just(OfFile::Save),
+        3 => foreign().prop_map(OfFile::Change),
+        3 => Just(OfFile::Reload),
+        3 => foreign().prop_map(OfFile::Import),
+        1 => prop::collection::vec(foreign(), 1..3).prop_map(OfFile::Open),
+        2 => unit().prop_map(OfFile::AnswerUnit),
     ]
 }
 

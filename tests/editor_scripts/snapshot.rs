@@ -3,12 +3,14 @@
 use std::fmt;
 
 use batten::document::{Curve, CurveId, Document, MatchPlace};
+use batten::geometry::expressions::LengthUnit;
 use batten::geometry::{Continuity, End};
 use glam::DVec3;
 
 /// Hold every bit of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
+    unit: Option<LengthUnit>,
     curves: Vec<(CurveId, Bits)>,
     /// References, written out, so that −0 and 0 differ.
     references: Vec<(CurveId, String)>,
@@ -115,6 +117,7 @@ impl Snapshot {
         let references = document.references();
         let references = references.map(|(id, reference)| (id, format!("{reference:?}")));
         Self {
+            unit: document.unit(),
             references: references.collect(),
             matches: matches.collect(),
             curves: curves.map(|(id, curve)| (id, Bits::of(curve))).collect(),

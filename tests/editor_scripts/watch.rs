@@ -4,7 +4,7 @@ use batten::document::{CurveId, Document};
 use batten::editor::{Command, OperationInProgress, ToolKind, told};
 use batten::operations::Inputs;
 
-use super::laws::{check_document, check_protected, check_selection, check_view};
+use super::laws::{check_document, check_matches, check_protected, check_selection, check_view};
 use super::snapshot::Snapshot;
 use super::window::Window;
 
@@ -33,6 +33,8 @@ pub enum Done {
     Convert,
     /// Another document may have been opened.
     Replace,
+    /// The document's file was read again, as a step.
+    Reload,
     /// The operation that was applied last got another value.
     Amend,
     /// Something was done that changes nothing shown.
@@ -116,6 +118,7 @@ impl Watch {
         check_document(window.document())?;
         check_selection(window.document(), window.selection())?;
         check_view(window)?;
+        check_matches(window)?;
         let replaced = done == Done::Replace
             && window.undo_steps() == 0
             && !window.can_redo()
@@ -125,7 +128,7 @@ impl Watch {
             return Ok(());
         }
         let shown = State::of(window.document());
-        if !matches!(done, Done::Undo | Done::Redo) {
+        if !matches!(done, Done::Undo | Done::Redo | Done::Reload) {
             // What an operation did, or would do, may be gone.
             let of_trial = window.trial().filter(|_| done == Done::Amend);
             let before = match of_trial {

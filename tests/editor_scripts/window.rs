@@ -1,18 +1,22 @@
 //! What a window asks of the editor besides inputs and commands, in one place: where methods of the
 //! editor move, this file follows and the matrix and the model stay as they are.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use batten::analysis::LevelPlot;
 use batten::document::{Colour, Curve, CurveId, Document, Edit};
 use batten::editor::{
-    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Input, Look, OperationInProgress,
-    PlotKind, Reply, Selection, Shortcut, Transformation, Viewport, told,
+    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Input, Layer, Look,
+    OperationInProgress, PlotKind, Reply, Selection, Shortcut, Transformation, Viewport, told,
 };
+use batten::geometry::expressions::LengthUnit;
 use batten::geometry::{FloatPolygon, PolygonKind};
-use batten::io::{Exporter, formats};
+use batten::io::{Exporter, PROJECT, formats};
 use batten::operations::{Kind, Operation, Parameter, Value, Values, find};
 use glam::{DVec2, DVec3};
+use tempfile::TempDir;
+
+use super::documents::Foreign;
 
 /// The canvas's width and height in screen points.
 pub const CANVAS: DVec2 = DVec2::new(1000.0, 700.0);
@@ -94,6 +98,25 @@ pub enum Panel {
     DismissMessage,
     /// Another document is opened, whether or not there are unsaved changes.
     Replace(Replacement),
+    /// A dialog asks for files, or another program changes one.
+    File(OfFile),
+}
+
+/// Something that happens to files.
+#[derive(Clone, Debug)]
+pub enum OfFile {
+    /// The document is saved to its file; it gets one if it has none.
+    Save,
+    /// Another program writes another document to that file.
+    Change(Foreign),
+    /// The document's file is read again.
+    Reload,
+    /// A file with another document is imported.
+    Import(Foreign),
+    /// Files with other documents are opened as one.
+    Open(Vec<Foreign>),
+    /// The question for the document's unit is answered, or called off.
+    AnswerUnit(Option<LengthUnit>),
 }
 
 /// What is opened in place of the document.
@@ -146,6 +169,8 @@ pub enum OfCurve {
 /// Stand in for the window: hold an editor and tell it what a window would.
 pub struct Window {
     editor: Editor,
+    /// The folder of its files, once there is one.
+    folder: Option<TempDir>,
 }
 
 impl Window {
@@ -154,7 +179,8 @@ impl Window {
         let mut editor = Editor::with_document(document);
         editor.look(Look::Canvas(CANVAS));
         editor.refresh();
-        Self { editor }
+        let folder = None;
+        Self { editor, folder }
     }
 
     /// Send one input, and draw the frame that follows.
@@ -184,6 +210,11 @@ impl Window {
     /// The document without the preview of a gesture.
     pub fn settled(&self) -> &Document {
         self.editor.workspace().settled()
+    }
+
+    /// A number that changes when another document is opened.
+    pub fn opening(&self) -> u64 {
+        self.editor.workspace().opening()
     }
 
     /// Whether a gesture shows a preview or may show one.
@@ -349,6 +380,44 @@ impl Window {
         self.editor.refresh();
     }
 
+    /// Whether the canvas shows ends as met or not met, in the order of curves and ends: of visible curves that
+    /// follow others. `None` while the layer of targets is hidden.
+    pub fn shown_matches(&self) -> Option<Vec<bool>> {
+        let shows_targets = self.editor.sight().layers().shows(Layer::Targets);
+        let ends = &self.editor.view().scene().ends;
+        shows_targets.then(|| ends.iter().filter_map(|marks| marks.matched).collect())
+    }
+
+    fn file(&mut self, asked: &OfFile) {
+        let own = self.path_of("own.batten");
+        match asked {
+            OfFile::Save => told(self.editor.save(&own)),
+            OfFile::Change(foreign) => write(&own, *foreign),
+            OfFile::Reload => told(self.editor.reload()),
+            OfFile::Import(foreign) => {
+                let path = self.path_of("imported.batten");
+                write(&path, *foreign);
+                told(self.editor.import(&[path]));
+            }
+            OfFile::Open(all) => {
+                let names = (0..all.len()).map(|number| format!("opened {number}.batten"));
+                let paths: Vec<PathBuf> = names.map(|name| self.path_of(&name)).collect();
+                paths
+                    .iter()
+                    .zip(all)
+                    .for_each(|(path, it)| write(path, *it));
+                told(self.editor.open(&paths));
+            }
+            OfFile::AnswerUnit(unit) => told(self.editor.answer_unit(*unit)),
+        }
+    }
+
+    /// A path in the window's own folder.
+    fn path_of(&mut self, name: &str) -> PathBuf {
+        let new = || tempfile::tempdir().expect("a folder");
+        self.folder.get_or_insert_with(new).path().join(name)
+    }
+
     fn curve(&self, number: usize) -> Option<(CurveId, &Curve)> {
         let count = self.document().len();
         let mut curves = self.document().curves();
@@ -434,6 +503,7 @@ impl Window {
                     told(self.editor.open(&["no such file.batten".into()]));
                 }
             },
+            Panel::File(asked) => self.file(asked),
             Panel::SelectVertex(curve, vertex, add) => {
                 if let Some((curve, vertex)) = self.vertex(*curve, *vertex) {
                     self.editor.select_vertex(curve, vertex, *add);
@@ -517,6 +587,12 @@ impl Window {
                 .set_values(&[(parameter.name, value)]);
         }
     }
+}
+
+/// Write a file as another program does.
+fn write(path: &Path, foreign: Foreign) {
+    let written = PROJECT.write(&foreign.document(), None);
+    std::fs::write(path, written.expect("a file").bytes).expect("it is written");
 }
 
 /// Read a value of a parameter's kind from any number: it may be out of range.
