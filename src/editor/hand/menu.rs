@@ -25,61 +25,54 @@ pub(in crate::editor) struct MenuTarget {
     end: Option<End>,
 }
 
-impl MenuSubject {
-    /// The subject of a menu about a whole curve or reference.
-    fn of(document: &Document, id: CurveId) -> Self {
-        match document.reference(id) {
-            Some(_) => Self::Reference,
-            None => Self::Curve,
-        }
-    }
-}
-
 impl MenuTarget {
-    /// Find the item at a place on the canvas: a vertex, an end, a leg, a curve or nothing.
-    pub(in crate::editor) fn at(at: DVec2, context: &Context) -> Self {
-        let (hits, document) = (context.hits, context.document);
-        let target = |subject, item| Self {
+    fn new(subject: MenuSubject, item: Option<CurveId>) -> Self {
+        Self {
             subject,
             item,
             vertices: Vec::new(),
             end: None,
-        };
-        let of_vertices = |subject, vertices: Vec<VertexId>| Self {
-            vertices,
-            ..target(subject, None)
-        };
+        }
+    }
+
+    /// Find what lies at a place on the canvas: a vertex, an end, a leg, a curve or nothing.
+    pub(in crate::editor) fn at(at: DVec2, context: &Context) -> Self {
+        let (hits, document) = (context.hits, context.document);
         if let Some(vertex) = hits.vertex(at) {
-            return of_vertices(MenuSubject::Vertex, vec![vertex]);
+            return Self {
+                vertices: vec![vertex],
+                ..Self::new(MenuSubject::Vertex, None)
+            };
         }
         if let Some((curve, end)) = end_at(at, context) {
             return Self {
                 end: Some(end),
-                ..target(MenuSubject::End, Some(curve))
+                ..Self::new(MenuSubject::End, Some(curve))
             };
         }
         if let Some(leg) = hits.leg(at, LEG_REACH) {
             let curve = document.curve(leg.curve);
             let count = curve.map_or(1, |curve| curve.polygon.vertices().len());
             let ends = [leg.index, (leg.index + 1) % count];
-            let ends = ends.map(|index| (leg.curve, index));
-            return of_vertices(MenuSubject::Leg, ends.to_vec());
+            return Self {
+                vertices: ends.map(|index| (leg.curve, index)).into(),
+                ..Self::new(MenuSubject::Leg, None)
+            };
         }
         let clamped = hits.clamped_vertex(at).map(|(curve, _)| curve);
         match clamped.or(hits.curve(at).map(|hit| hit.curve)) {
-            Some(hit) => target(MenuSubject::of(document, hit), Some(hit)),
-            None => target(MenuSubject::Canvas, None),
+            Some(hit) => Self::of_item(document, hit),
+            None => Self::new(MenuSubject::Canvas, None),
         }
     }
 
     /// A whole curve or reference.
     pub(in crate::editor) fn of_item(document: &Document, id: CurveId) -> Self {
-        Self {
-            subject: MenuSubject::of(document, id),
-            item: Some(id),
-            vertices: Vec::new(),
-            end: None,
-        }
+        let subject = match document.reference(id) {
+            Some(_) => MenuSubject::Reference,
+            None => MenuSubject::Curve,
+        };
+        Self::new(subject, Some(id))
     }
 
     /// The curve or reference that the menu makes active.
@@ -131,7 +124,7 @@ impl Hand {
             (None, Some(active)) => {
                 let shape = document.shape(active);
                 let middle = shape.map(|shape| shape.jet(0.5 * shape.pieces() as f64).point);
-                (MenuSubject::of(document, active), middle)
+                (MenuTarget::of_item(document, active).subject, middle)
             }
             (None, None) => (MenuSubject::Canvas, None),
         };

@@ -47,11 +47,13 @@ pub fn snap_to_point(
     viewport: &Viewport,
 ) -> Option<Snap> {
     let reach = REACH * viewport.pixel();
-    let mut best: Option<(f64, DVec3, Snapped)> = None;
-    let mut consider = |candidate: DVec3, what: Snapped| {
-        let distance = viewport.flatten(candidate).distance(place);
-        if distance <= reach && best.is_none_or(|(nearest, ..)| distance < nearest) {
-            best = Some((distance, candidate, what));
+    let mut best: Option<(f64, Snap)> = None;
+    let mut consider = |point: DVec3, name: &dyn Fn() -> String| {
+        let distance = viewport.flatten(point).distance(place);
+        let is_best = best.as_ref().is_none_or(|(nearest, _)| distance < *nearest);
+        if distance <= reach && is_best {
+            let name = name();
+            best = Some((distance, Snap { point, name }));
         }
     };
     for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
@@ -59,18 +61,22 @@ pub fn snap_to_point(
         for (index, vertex) in polygon.vertices().iter().enumerate() {
             let near = viewport.flatten(*vertex).distance(place) <= reach;
             if near && !carried.vertices.contains(&(id, index)) {
-                consider(*vertex, Snapped::Vertex(index));
+                consider(*vertex, &|| format!("Vertex {index}"));
             }
         }
         for end in End::BOTH {
             if let Some(target) = curve.targets.get(end)
                 && carried.target != Some((id, end))
             {
-                consider(target.point, Snapped::Target(end));
+                consider(target.point, &|| format!("Target of the {}", end.name()));
             }
             let feels = |index| carried.vertices.contains(&(id, index));
             if !polygon.is_periodic() && !polygon.terminal_vertices(end).any(feels) {
-                consider(polygon.end_jet(end).point, Snapped::End(end));
+                let name = match end {
+                    End::Start => "Start",
+                    End::Finish => "End",
+                };
+                consider(polygon.end_jet(end).point, &|| name.to_owned());
             }
         }
     }
@@ -81,38 +87,12 @@ pub fn snap_to_point(
             let jets = End::BOTH.map(|end| MatchPlace::End(end).jet(&reference.curve));
             jets.into_iter().flatten().map(|jet| jet.point).collect()
         };
-        let what = Snapped::Reference(id);
-        let points = reference.points().unwrap_or_else(ends);
-        points.into_iter().for_each(|point| consider(point, what));
-    }
-    consider(DVec3::ZERO, Snapped::Origin);
-    best.map(|(_, point, what)| Snap {
-        point,
-        name: what.name(document),
-    })
-}
-
-/// The kind of a point that attracts.
-#[derive(Clone, Copy)]
-enum Snapped {
-    Vertex(usize),
-    End(End),
-    Target(End),
-    Reference(CurveId),
-    Origin,
-}
-
-impl Snapped {
-    fn name(self, document: &Document) -> String {
-        match self {
-            Self::Vertex(index) => format!("Vertex {index}"),
-            Self::End(End::Start) => "Start".to_owned(),
-            Self::End(End::Finish) => "End".to_owned(),
-            Self::Target(end) => format!("Target of the {}", end.name()),
-            Self::Reference(id) => reference_name(id, document),
-            Self::Origin => "Origin".to_owned(),
+        for point in reference.points().unwrap_or_else(ends) {
+            consider(point, &|| reference_name(id, document));
         }
     }
+    consider(DVec3::ZERO, &|| "Origin".to_owned());
+    best.map(|(_, snap)| snap)
 }
 
 /// The name of a snap to a reference.

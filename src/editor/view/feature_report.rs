@@ -7,9 +7,7 @@ use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::ViewBox;
 use crate::geometry::FloatPolygon;
 use crate::geometry::ParametricCurve;
-use crate::geometry::features::{
-    Extremum, ExtremumKind, Feature, Features, Root, Trend, TrendPiece, Verdict,
-};
+use crate::geometry::features::{ExtremumKind, Feature, Features, Trend, TrendPiece, Verdict};
 
 /// The least distance of two marks in screen points: where few would touch, and where they would cover most
 /// of the curve.
@@ -164,40 +162,46 @@ impl FeatureReport {
                 point: polygon.point(middle),
             }
         };
-        let zero = |kind, root: &Root| FeatureRow {
-            count: root.count,
-            ..row(kind, root.u)
-        };
-        let inflections = features.inflections.iter();
-        let torsion_zeros = features.torsion_zeros.iter();
-        let curvature = features.curvature_extrema.iter();
-        let torsion = features.torsion_extrema.iter();
-        let extremum = |[maximum, minimum]: [FeatureKind; 2]| {
-            move |extremum: &Extremum| {
-                let kind = match extremum.kind {
-                    ExtremumKind::Maximum => maximum,
-                    ExtremumKind::Minimum => minimum,
-                };
-                FeatureRow {
-                    count: extremum.count,
-                    value: Some(extremum.value),
-                    ..row(kind, extremum.u)
-                }
-            }
-        };
-        let extrema = curvature
-            .map(extremum([
-                FeatureKind::CurvatureMaximum,
-                FeatureKind::CurvatureMinimum,
-            ]))
-            .chain(torsion.map(extremum([
-                FeatureKind::TorsionMaximum,
-                FeatureKind::TorsionMinimum,
-            ])));
         let mut rows: Vec<FeatureRow> = Vec::new();
-        rows.extend(inflections.map(|root| zero(FeatureKind::Inflection, root)));
-        rows.extend(torsion_zeros.map(|root| zero(FeatureKind::TorsionZero, root)));
-        rows.extend(extrema);
+        for (kind, roots) in [
+            (FeatureKind::Inflection, &features.inflections),
+            (FeatureKind::TorsionZero, &features.torsion_zeros),
+        ] {
+            rows.extend(roots.iter().map(|root| FeatureRow {
+                count: root.count,
+                ..row(kind, root.u)
+            }));
+        }
+        let [maximum, minimum] = [ExtremumKind::Maximum, ExtremumKind::Minimum];
+        for (kind, named, extrema) in [
+            (
+                FeatureKind::CurvatureMaximum,
+                maximum,
+                &features.curvature_extrema,
+            ),
+            (
+                FeatureKind::CurvatureMinimum,
+                minimum,
+                &features.curvature_extrema,
+            ),
+            (
+                FeatureKind::TorsionMaximum,
+                maximum,
+                &features.torsion_extrema,
+            ),
+            (
+                FeatureKind::TorsionMinimum,
+                minimum,
+                &features.torsion_extrema,
+            ),
+        ] {
+            let extrema = extrema.iter().filter(|extremum| extremum.kind == named);
+            rows.extend(extrema.map(|extremum| FeatureRow {
+                count: extremum.count,
+                value: Some(extremum.value),
+                ..row(kind, extremum.u)
+            }));
+        }
         rows.extend(features.cusps.iter().map(|cusp| FeatureRow {
             remark: if cusp.proved { "" } else { "cusp?" },
             ..row(FeatureKind::Cusp, cusp.u)

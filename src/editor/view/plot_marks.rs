@@ -21,47 +21,31 @@ const FINEST_MARK: f64 = 1.0 / 8192.0;
 /// Bands are looked at in so many places along what a plot shows.
 const BANDS: f64 = 2048.0;
 
-/// The quantity that a plot shows, if it has features.
-#[derive(Clone, Copy, PartialEq)]
-enum PlottedQuantity {
-    Curvature,
-    Torsion,
+/// The plot of the torsion itself.
+const TORSION: LevelPlot = LevelPlot::Torsion(1);
+
+/// Whether a plot shows the quantity that has a feature.
+fn shows(plot: LevelPlot, kind: FeatureKind) -> bool {
+    match kind {
+        FeatureKind::Inflection | FeatureKind::CurvatureMaximum | FeatureKind::CurvatureMinimum => {
+            plot == LevelPlot::CURVATURE
+        }
+        FeatureKind::TorsionZero | FeatureKind::TorsionMaximum | FeatureKind::TorsionMinimum => {
+            plot == TORSION
+        }
+        FeatureKind::Cusp | FeatureKind::Undecided => {
+            [LevelPlot::CURVATURE, TORSION].contains(&plot)
+        }
+    }
 }
 
-impl PlottedQuantity {
-    fn of(kind: PlotKind) -> Option<Self> {
-        let PlotKind::Levels { plot, .. } = kind else {
-            return None;
-        };
-        match plot {
-            LevelPlot::Curvature(1) => Some(Self::Curvature),
-            LevelPlot::Torsion(1) => Some(Self::Torsion),
-            _ => None,
-        }
-    }
-
-    fn has(self, kind: FeatureKind) -> bool {
-        match kind {
-            FeatureKind::Inflection
-            | FeatureKind::CurvatureMaximum
-            | FeatureKind::CurvatureMinimum => self == Self::Curvature,
-            FeatureKind::TorsionZero
-            | FeatureKind::TorsionMaximum
-            | FeatureKind::TorsionMinimum => self == Self::Torsion,
-            FeatureKind::Cusp | FeatureKind::Undecided => true,
-        }
-    }
-
-    /// The quantity at a feature: not a number where there is none.
-    fn value(self, row: &FeatureRow, curve: &dyn ParametricCurve, planar: bool) -> f64 {
-        if let Some([low, high]) = row.value {
-            return 0.5 * (low + high);
-        }
-        match (row.kind, self) {
-            (FeatureKind::Inflection | FeatureKind::TorsionZero, _) => 0.0,
-            (_, Self::Curvature) => curve.jet(row.middle).curvature_of(planar),
-            (_, Self::Torsion) => curve.jet(row.middle).torsion(),
-        }
+/// The plotted quantity at a feature: not a number where there is none.
+fn value_at(row: &FeatureRow, plot: LevelPlot, curve: &dyn ParametricCurve, planar: bool) -> f64 {
+    match (row.kind, row.value) {
+        (_, Some([low, high])) => 0.5 * (low + high),
+        (FeatureKind::Inflection | FeatureKind::TorsionZero, _) => 0.0,
+        _ if plot == LevelPlot::CURVATURE => curve.jet(row.middle).curvature_of(planar),
+        _ => curve.jet(row.middle).torsion(),
     }
 }
 
@@ -108,9 +92,10 @@ impl PlotScene {
 
 impl Sight<'_> {
     fn mark_features(self, plots: &mut PlotScene, source: &PlotSource) {
-        let (id, kind) = (source.id, source.kind);
         let analyses = &self.view.analyses;
-        let Some((quantity, sampled)) = PlottedQuantity::of(kind).zip(analyses.sampled(id)) else {
+        let (PlotKind::Levels { plot, .. }, Some(sampled)) =
+            (source.kind, analyses.sampled(source.id))
+        else {
             return;
         };
         let rows = self.features().map_or(&[][..], |report| &report.rows);
@@ -120,20 +105,21 @@ impl Sight<'_> {
         let [from, to] = plots.part.unwrap_or([0.0, plots.length]);
         let apart = FINEST_MARK * (to - from);
         let mut last = f64::NEG_INFINITY;
-        for row in rows.iter().filter(|row| quantity.has(row.kind)) {
+        for row in rows.iter().filter(|row| shows(plot, row.kind)) {
             let along = cursor.length_at(sampled, row.middle);
             if (along - last).abs() < apart {
                 continue;
             }
             last = along;
-            let value = quantity.value(row, sampled.curve, planar);
+            let value = value_at(row, plot, sampled.curve, planar);
             plots.features.push(PlotFeature {
                 kind: row.kind,
                 at: DVec2::new(along * scale, value / scale),
             });
         }
-        let segments = analyses.get(id).and_then(CurveAnalysis::proved_segments);
-        if let Some(segments) = segments.filter(|_| quantity == PlottedQuantity::Curvature) {
+        let analysis = analyses.get(source.id);
+        let segments = analysis.and_then(CurveAnalysis::proved_segments);
+        if let Some(segments) = segments.filter(|_| plot == LevelPlot::CURVATURE) {
             append_bands(sampled, segments, to - from, &mut plots.bands);
             for band in &mut plots.bands {
                 band.from *= scale;
