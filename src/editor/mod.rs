@@ -32,9 +32,8 @@ pub use view::{
     Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,
     EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid, GuideLabel,
     GuideScene, HoverScene, Layer, LayerRow, LayerSample, Layers, Legs, Look, LossArrow, Mark,
-    MeasuredFigure, NamedView, Orientation, PieceTrend, PlotBand, PlotFeature, PlotKind, PlotScene,
-    ProposalScene, REACH, Scene, Sight, VertexMark, View, ViewBox, Viewport, grid_steps,
-    ground_grid, view_name,
+    MeasuredFigure, NamedView, Orientation, PieceTrend, PlotBand, PlotKind, PlotScene, REACH,
+    Scene, Sight, VertexMark, View, ViewBox, Viewport, grid_steps, ground_grid, view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 

@@ -62,8 +62,8 @@ pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     }
     let ghostly = |width, colour: Color32| Stroke::new(width, colour.gamma_multiply(GHOST));
     let (curve, float) = (brush.tokens.curve, brush.tokens.float);
-    brush.legs(&scene.ghost_polygon, false, ghostly(1.0, float));
-    brush.chain(&scene.ghost, ghostly(1.5, curve));
+    brush.legs(&scene.ghost.float, false, ghostly(1.0, float));
+    brush.chain(&scene.ghost.curve, ghostly(1.5, curve));
     for curve in others.iter().chain(&active) {
         brush.bands(curve);
         brush.vertices(curve);

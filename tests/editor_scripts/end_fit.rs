@@ -90,10 +90,10 @@ fn the_loop_stops_on_the_papers_arc_and_both_ends_at_once_correct_it() {
             .largest_move
             .is_some_and(|largest| largest.distance > 0.0)
     );
-    assert!(!script.scene().ghost.is_empty());
+    assert!(!script.scene().ghost.curve.is_empty());
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
-    assert!(script.scene().ghost.is_empty());
+    assert!(script.scene().ghost.curve.is_empty());
 }
 
 #[test]

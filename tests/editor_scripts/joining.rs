@@ -77,7 +77,7 @@ fn the_ghost_shows_both_curves_as_they_were() {
     let vertices = [arc, other].map(|id| curve(&script, id).expect("a curve").polygon.clone());
     let viewport = *script.editor.view().viewport();
     let scene = script.scene();
-    let ghost = points(&scene.ghost_polygon);
+    let ghost = points(&scene.ghost.float);
     for polygon in &vertices {
         for vertex in polygon.vertices() {
             let seen = viewport.flatten(*vertex);
@@ -85,9 +85,9 @@ fn the_ghost_shows_both_curves_as_they_were() {
         }
     }
     assert!(ghost.len() >= alone.iter().sum::<usize>());
-    assert!(!scene.ghost.is_empty());
+    assert!(!scene.ghost.curve.is_empty());
     script.editor.operating().apply().expect("a step");
-    assert!(script.scene().ghost.is_empty());
+    assert!(script.scene().ghost.curve.is_empty());
 }
 
 #[test]

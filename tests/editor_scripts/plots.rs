@@ -3,7 +3,7 @@
 use batten::analysis::LevelPlot;
 use batten::document::{Edit, Reference};
 use batten::editor::{
-    Command, FeatureKind, Layer, Look, Modifiers, PieceTrend, PlotFeature, PlotKind, PlotScene,
+    Command, FeatureKind, FeatureMark, Layer, Look, Modifiers, PieceTrend, PlotKind, PlotScene,
 };
 use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use batten::operations::Value;
@@ -21,7 +21,7 @@ fn length(script: &Script, from: f64, to: f64) -> f64 {
         .sum()
 }
 
-fn kinds(features: &[PlotFeature]) -> Vec<FeatureKind> {
+fn kinds(features: &[FeatureMark]) -> Vec<FeatureKind> {
     features.iter().map(|feature| feature.kind).collect()
 }
 

@@ -16,7 +16,7 @@ use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
 use crate::editor::view::overlay::Overlay;
-use crate::editor::view::scene::{ClampedMark, CurveScene, ProposalScene, Scene, VertexMark};
+use crate::editor::view::scene::{ClampedMark, CurveScene, VertexMark};
 use crate::editor::view::shown::Shown;
 use crate::editor::view::sketch::Sketch;
 use crate::editor::view::view::View;
@@ -37,8 +37,8 @@ impl View {
         view.low -= border;
         view.high += border;
         self.draw_curves(shown, &view, &mut scene.curves);
-        self.draw_ghosts(shown, overlay, &view, &mut scene);
-        scene.proposal = ProposalScene::default();
+        self.draw_ghosts(shown, overlay, &view, &mut scene.ghost);
+        scene.proposal.clear();
         if let Some((polygon, changed)) = overlay.proposal.take() {
             self.draw_proposal(shown, polygon, changed, &view, &mut scene.proposal);
         }
@@ -208,24 +208,21 @@ impl View {
         shown: Shown<'_>,
         overlay: &Overlay,
         view: &ViewBox,
-        scene: &mut Scene,
+        scene: &mut CurveScene,
     ) {
-        scene.ghost.clear();
-        scene.ghost_polygon.clear();
-        let orientation = self.viewport.orientation;
+        scene.clear();
+        let eye = self.viewport.orientation;
         if let Some(before) = &overlay.before {
-            let chains = (&mut scene.ghost, &mut scene.ghost_polygon);
-            self.ghost.append(before, orientation, view, chains, None);
+            self.ghost.append(before, eye, view, scene, false);
         }
         let others = &overlay.others_before;
         self.other_ghosts.resize_with(others.len(), Sketch::default);
         for (ghost, other) in self.other_ghosts.iter_mut().zip(others) {
-            scene.ghost.push(GAP);
-            let chains = (&mut scene.ghost, &mut scene.ghost_polygon);
-            ghost.append(other, orientation, view, chains, None);
+            scene.curve.push(GAP);
+            ghost.append(other, eye, view, scene, false);
         }
         if !shown.layers.shows(Layer::Float) {
-            scene.ghost_polygon.clear();
+            scene.float.clear();
         }
     }
 
@@ -236,17 +233,17 @@ impl View {
         polygon: FloatPolygon,
         changed: Option<CurveId>,
         view: &ViewBox,
-        scene: &mut ProposalScene,
+        scene: &mut CurveScene,
     ) {
         let document = shown.document();
         scene.id = Some(changed.unwrap_or(document.next_id()));
         scene.colour = changed.and_then(|id| document.curve(id)?.colour);
         let curve = Arc::new(Curve::new(String::new(), polygon));
-        let chains = (&mut scene.curve, &mut scene.float);
-        let clamped = shown.layers.shows(Layer::Clamped);
-        let clamped = clamped.then_some(&mut scene.clamped);
-        let eye = self.viewport.orientation;
-        self.proposed.append(&curve, eye, view, chains, clamped);
+        let (eye, clamped) = (
+            self.viewport.orientation,
+            shown.layers.shows(Layer::Clamped),
+        );
+        self.proposed.append(&curve, eye, view, scene, clamped);
     }
 
     /// Draw the targets of all ends, and the marks of the end that the end-fit tool corrects.
@@ -279,11 +276,17 @@ impl CurveScene {
         locked: bool,
         colour: Option<Colour>,
     ) {
+        self.clear();
         self.id = Some(id);
         self.is_reference = false;
         self.active = Some(id) == active;
         self.locked = locked;
         self.colour = colour;
+    }
+
+    fn clear(&mut self) {
+        self.id = None;
+        self.colour = None;
         self.teeth.clear();
         self.joints.clear();
         self.vertices.clear();

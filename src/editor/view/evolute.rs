@@ -22,14 +22,8 @@ pub struct Evolute<'a> {
     pub reach: f64,
 }
 
-/// A step along one piece, by the samples at its ends and their parameters.
-struct Step<'a> {
-    piece: usize,
-    from: (f64, &'a Sample),
-    to: (f64, &'a Sample),
-    depth: u32,
-    near: Option<&'a ViewBox>,
-}
+/// A sample with its parameter on a piece.
+type Place<'a> = (f64, &'a Sample);
 
 impl Evolute<'_> {
     /// Append the evolute of one piece that is sampled at even parameters; with a view, only
@@ -57,60 +51,43 @@ impl Evolute<'_> {
                 out.push(self.place(&pair[1]));
                 continue;
             }
-            self.follow(
-                Step {
-                    piece,
-                    from: (at(0), &pair[0]),
-                    to: (at(1), &pair[1]),
-                    depth: 0,
-                    near,
-                },
-                out,
-            );
+            let ends = [(at(0), &pair[0]), (at(1), &pair[1])];
+            self.follow(piece, ends, (near, DEEPEST), out);
             out.push(self.place(&pair[1]));
         }
     }
 
-    /// Append the points between the ends of a step.
-    fn follow(&self, step: Step<'_>, out: &mut Vec<DVec2>) {
-        let (from, to) = (self.place(step.from.1), self.place(step.to.1));
-        let turns = turned(step.from.1, step.to.1);
+    /// Append the points between the ends of a step along a piece, which is halved so many times at most.
+    fn follow(
+        &self,
+        piece: usize,
+        [start, end]: [Place<'_>; 2],
+        (near, halvings): (Option<&ViewBox>, u32),
+        out: &mut Vec<DVec2>,
+    ) {
+        let (from, to) = (self.place(start.1), self.place(end.1));
+        let turns = turned(start.1, end.1);
         let is_short = from.distance(to) <= self.longest_chord;
         let is_far = |sample: &Sample| !(sample.curvature.abs() * self.reach >= 1.0);
-        let leaves = is_far(step.from.1) && is_far(step.to.1);
-        let is_aside = step.near.is_some_and(|view| {
+        let leaves = is_far(start.1) && is_far(end.1);
+        let is_aside = near.is_some_and(|view| {
             let mut bounds = Bounds::EMPTY;
             bounds.add(from);
             bounds.add(to);
             !bounds.may_meet(view)
         });
-        if (is_short && !turns) || leaves || is_aside || step.depth == DEEPEST {
-            if turns && leaps(from, to, step.from.1, step.to.1) {
+        if (is_short && !turns) || leaves || is_aside || halvings == 0 {
+            if turns && leaps(from, to, start.1, end.1) {
                 out.push(GAP);
             }
             return;
         }
-        let t = 0.5 * (step.from.0 + step.to.0);
-        let jet = self.curve.piece_jet(step.piece, t);
+        let t = 0.5 * (start.0 + end.0);
+        let jet = self.curve.piece_jet(piece, t);
         let middle = Sample::of(&jet, self.planar);
-        let depth = step.depth + 1;
-        self.follow(
-            Step {
-                to: (t, &middle),
-                depth,
-                ..step
-            },
-            out,
-        );
+        self.follow(piece, [start, (t, &middle)], (near, halvings - 1), out);
         out.push(self.place(&middle));
-        self.follow(
-            Step {
-                from: (t, &middle),
-                depth,
-                ..step
-            },
-            out,
-        );
+        self.follow(piece, [(t, &middle), end], (near, halvings - 1), out);
     }
 
     /// The evolute's point that belongs to a sample; a gap where it is straight.

@@ -235,7 +235,7 @@ fn doubtful(quantity: Feature) -> &'static str {
     }
 }
 
-/// A feature as it is marked on the canvas.
+/// A feature as it is marked on the canvas or in a plot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FeatureMark {
     /// Its kind.

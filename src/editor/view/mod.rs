@@ -51,10 +51,9 @@ pub use look::Look;
 pub use named_view::{NamedView, view_name};
 pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};
-pub use plot_scene::{PlotBand, PlotFeature, PlotKind, PlotScene};
+pub use plot_scene::{PlotBand, PlotKind, PlotScene};
 pub use scene::{
-    ClampedMark, CurveScene, DragReadout, HoverScene, Legs, Mark, MeasuredFigure, ProposalScene,
-    Scene, VertexMark,
+    ClampedMark, CurveScene, DragReadout, HoverScene, Legs, Mark, MeasuredFigure, Scene, VertexMark,
 };
 pub use sight::Sight;
 pub use view::View;

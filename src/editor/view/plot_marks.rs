@@ -4,11 +4,9 @@ use glam::DVec2;
 
 use crate::analysis::{CurveAnalysis, LengthCursor, LevelPlot, SampledCurve};
 use crate::editor::view::curve_outlines::PieceTrend;
-use crate::editor::view::feature_report::{FeatureKind, FeatureRow};
+use crate::editor::view::feature_report::{FeatureKind, FeatureMark, FeatureRow};
 use crate::editor::view::layers::Layer;
-use crate::editor::view::plot_scene::{
-    MarkSource, PlotBand, PlotFeature, PlotKind, PlotScene, PlotSource,
-};
+use crate::editor::view::plot_scene::{MarkSource, PlotBand, PlotKind, PlotScene, PlotSource};
 use crate::editor::view::shown::Shown;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::view::View;
@@ -112,9 +110,10 @@ impl Sight<'_> {
             }
             last = along;
             let value = value_at(row, plot, sampled.curve, planar);
-            plots.features.push(PlotFeature {
+            plots.features.push(FeatureMark {
                 kind: row.kind,
                 at: DVec2::new(along * scale, value / scale),
+                u: row.middle,
             });
         }
         let analysis = analyses.get(source.id);

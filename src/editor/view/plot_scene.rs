@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::analysis::{Flow, Item, LevelPlot};
 use crate::document::CurveId;
 use crate::editor::view::curve_outlines::PieceTrend;
-use crate::editor::view::feature_report::FeatureKind;
+use crate::editor::view::feature_report::FeatureMark;
 
 /// The kind of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,8 +46,9 @@ pub struct PlotScene {
     pub part: Option<[f64; 2]>,
     /// The name of the curve or reference to compare with.
     pub compared_name: String,
-    /// The features that belong to the plot, in the order of u.
-    pub features: Vec<PlotFeature>,
+    /// The features that belong to the plot, in the order of u: they are at their arc lengths, as high as the
+    /// curvature or torsion there, which is not finite at a cusp.
+    pub features: Vec<FeatureMark>,
     /// Where the curvature rises, falls, or may do either, as far as it is proved: in the plot of
     /// the curvature.
     pub bands: Vec<PlotBand>,
@@ -63,15 +64,6 @@ pub struct PlotScene {
     pub hovered_vertex: Option<usize>,
     /// The series of the curve as it was, where that is shown too.
     pub before: Option<Box<PlotScene>>,
-}
-
-/// A feature as a plot marks it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlotFeature {
-    /// Its kind.
-    pub kind: FeatureKind,
-    /// Its arc length, and the curvature or torsion there; not finite at a cusp.
-    pub at: DVec2,
 }
 
 /// A part of a curve, by arc length, on which its curvature has one trend.

@@ -14,12 +14,11 @@ use crate::editor::view::outline::append_gap;
 pub struct Scene {
     /// The references that are shown, then the curves.
     pub curves: Vec<CurveScene>,
-    /// The curve as it was before the gesture or the correction, drawn faintly.
-    pub ghost: Vec<DVec2>,
-    /// Its float S-polygon as it was.
-    pub ghost_polygon: Legs,
-    /// The curve that a click would make.
-    pub proposal: ProposalScene,
+    /// The curves that the gesture or the operation changes as they were before, with their float S-polygons, drawn
+    /// faintly.
+    pub ghost: CurveScene,
+    /// The curve that a click would make, with its polygons; empty if it would make none.
+    pub proposal: CurveScene,
     /// The marks of tools, operations and comparisons.
     pub marks: Vec<Mark>,
     /// The end-fit tool's marks, and the targets of all curves.
@@ -28,21 +27,6 @@ pub struct Scene {
     pub guides: GuideScene,
     /// The hovered thing.
     pub hover: Option<HoverScene>,
-}
-
-/// The curve that a click would make, with its polygons; empty if it would make none.
-#[derive(Clone, Debug, Default)]
-pub struct ProposalScene {
-    /// The curve that it is, or will be.
-    pub id: Option<CurveId>,
-    /// Its own colour.
-    pub colour: Option<Colour>,
-    /// The closed S-polygon's legs, without those that lie on the float one's.
-    pub clamped: Legs,
-    /// The float S-polygon's legs.
-    pub float: Legs,
-    /// The curve.
-    pub curve: Vec<DVec2>,
 }
 
 /// The layers of one curve or reference; those that are not shown are empty.

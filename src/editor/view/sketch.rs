@@ -2,14 +2,12 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use crate::analysis::CurveAnalysis;
 use crate::document::Curve;
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::ViewBox;
 use crate::editor::view::outlines::Outlined;
-use crate::editor::view::scene::Legs;
+use crate::editor::view::scene::CurveScene;
 
 /// Keep the analysis and the outlines of a curve from frame to frame, so that only changes cost time.
 #[derive(Debug, Default)]
@@ -31,15 +29,15 @@ impl Sketch {
         self.analysis.insert(analysis)
     }
 
-    /// Append the visible part of a curve and its float S-polygon, and of its closed one without the legs
+    /// Append the visible part of a curve and its float S-polygon, and if wanted of its closed one, without the legs
     /// that lie on the float one's.
     pub fn append(
         &mut self,
         curve: &Arc<Curve>,
         orientation: Orientation,
         view: &ViewBox,
-        (curves, float): (&mut Vec<DVec2>, &mut Legs),
-        clamped: Option<&mut Legs>,
+        scene: &mut CurveScene,
+        clamped: bool,
     ) {
         self.analysis(curve);
         let Self { analysis, outlined } = self;
@@ -47,16 +45,17 @@ impl Sketch {
             return;
         };
         outlined.update(analysis, orientation);
-        let sampled = analysis.sampled();
-        outlined.curve.append_curve(sampled, view, curves);
+        let float = analysis.float();
+        outlined
+            .curve
+            .append_curve(analysis.sampled(), view, &mut scene.curve);
         outlined
             .float
-            .append_legs(analysis.float(), None, view, float);
-        if let Some(clamped) = clamped {
-            let covering = Some(outlined.float.seen(analysis.float()));
-            let chain = analysis.clamped();
-            let outlines = &outlined.clamped;
-            outlines.append_legs(chain, covering.as_ref(), view, clamped);
+            .append_legs(float, None, view, &mut scene.float);
+        if clamped {
+            let covering = Some(outlined.float.seen(float));
+            let (outlines, chain) = (&outlined.clamped, analysis.clamped());
+            outlines.append_legs(chain, covering.as_ref(), view, &mut scene.clamped);
         }
     }
 }

@@ -13,7 +13,7 @@ use super::pane::Pane;
 use super::ticks::Scale;
 use super::{Plots, area, discrete, empty_ui, is_held};
 use crate::analysis::LevelPlot;
-use crate::editor::{Editor, PlotFeature, PlotScene};
+use crate::editor::{Editor, FeatureMark, PlotScene};
 use crate::ui::action::Action;
 use crate::ui::theme::{STEP, Tokens};
 use crate::ui::widgets;
@@ -255,7 +255,7 @@ fn noise(plot: LevelPlot, length: f64) -> f64 {
 fn label(
     which: LevelPlot,
     marked: Option<DVec2>,
-    near: Option<&PlotFeature>,
+    near: Option<&FeatureMark>,
     hover: &HoverPosition<'_>,
 ) -> Option<String> {
     let kappa = match which == LevelPlot::CURVATURE {

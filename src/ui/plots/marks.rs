@@ -5,7 +5,7 @@ use egui_plot::{PlotPoint, PlotTransform};
 use glam::DVec2;
 
 use super::dots::{Crowd, by_halves};
-use crate::editor::{PieceTrend, PlotBand, PlotFeature, PlotScene};
+use crate::editor::{FeatureMark, PieceTrend, PlotBand, PlotScene};
 use crate::ui::feature_marks;
 use crate::ui::theme::{self, STEP, Tokens};
 
@@ -108,7 +108,7 @@ fn apart(scene: &PlotScene, transform: &PlotTransform) -> f64 {
 
 /// Where the glyph of a feature stands: at the edge if its value lies beyond it. `None` if it is
 /// beyond the left or right edge.
-fn place(feature: &PlotFeature, transform: &PlotTransform) -> Option<Pos2> {
+fn place(feature: &FeatureMark, transform: &PlotTransform) -> Option<Pos2> {
     let frame = transform.frame();
     let y = if feature.at.y.is_nan() {
         f64::INFINITY

@@ -10,6 +10,7 @@ use crate::document::{Edit, quoted};
 use crate::editor::hand::snapping::along_axis;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::osculating_circle::OsculatingCircle;
+use crate::geometry::FloatPolygon;
 use crate::geometry::end_correction::{
     EndDifference, EndTarget, align_end, rotate_end, translate_end,
 };
@@ -165,13 +166,9 @@ fn turned_by(angle: f64, subject: &Subject, context: &Context) -> DMat3 {
 
 fn shaped<E: std::fmt::Display>(
     subject: &Subject,
-    polygon: Result<crate::geometry::FloatPolygon, E>,
+    polygon: Result<FloatPolygon, E>,
 ) -> Vec<Effect> {
-    match polygon {
-        Ok(polygon) => {
-            let curve = subject.id;
-            vec![Effect::Preview(vec![Edit::SetPolygon { curve, polygon }])]
-        }
-        Err(error) => vec![Effect::Say(error.to_string())],
-    }
+    let curve = subject.id;
+    let edits = polygon.map(|polygon| vec![Edit::SetPolygon { curve, polygon }]);
+    vec![Effect::preview(edits)]
 }

@@ -4,6 +4,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::move_drag::MoveDrag;
 use super::tool::{Context, Effect};
+use super::transformed::set_placement;
 use crate::document::{CurveId, Document, Edit, Reference};
 use crate::editor::hand::clean_step::stepped;
 use crate::editor::hand::snapping::Carried;
@@ -186,13 +187,8 @@ impl ReferenceDrag {
             return Effect::Preview(Vec::new());
         };
         let curve = &before.curve;
-        match self.placed(curve.placement(), place, context) {
-            Ok(placement) => Effect::Preview(vec![Edit::SetReference {
-                reference: self.id,
-                curve: curve.clone().placed(placement),
-            }]),
-            Err(error) => Effect::Say(error.to_string()),
-        }
+        let placement = self.placed(curve.placement(), place, context);
+        Effect::preview(placement.map(|it| vec![set_placement(self.id, curve, it)]))
     }
 
     fn placed(
@@ -220,10 +216,7 @@ impl ReferenceDrag {
                 let seen = view.flatten(*pivot);
                 let arm = *origin - seen;
                 let free = (now - seen).dot(arm) / arm.length_squared();
-                let factor = match context.modifiers.shift {
-                    true => (10.0 * free).round().max(1.0) / 10.0,
-                    false => free.max(1e-3),
-                };
+                let factor = context.factor(free.max(1e-3), 1.0);
                 self.label = Some((now, format!("× {factor:.3}")));
                 before.scaled_about(*pivot, factor)
             }
@@ -264,10 +257,7 @@ pub fn nudged(by: DVec2, context: &Context) -> Option<Edit> {
     let now = curve.placement();
     let to = stepped(now.translation(), context.movement(by, curve.is_planar()));
     let placement = Placement::new(now.rotation(), now.scale(), to).ok()?;
-    Some(Edit::SetReference {
-        reference: id,
-        curve: curve.clone().placed(placement),
-    })
+    Some(set_placement(id, curve, placement))
 }
 
 /// The active reference, if it can be changed.

@@ -62,10 +62,7 @@ impl Moving {
             let is_planar = self.planar.contains(&id.0);
             (*id, *at + context.movement(by, is_planar))
         });
-        match context.following.edits(context.before, places) {
-            Ok(edits) => Effect::Preview(edits),
-            Err(error) => Effect::Say(error.to_string()),
-        }
+        Effect::preview(context.following.edits(context.before, places))
     }
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
@@ -97,10 +94,8 @@ impl MovingClamped {
         let by = self.drag.go_on(place, context);
         let to = self.from + context.movement(by, self.planar);
         let following = &context.following;
-        match following.clamped_edit(context.before, self.vertex, to) {
-            Ok(edit) => Effect::Preview(vec![edit]),
-            Err(error) => Effect::Say(error.to_string()),
-        }
+        let edit = following.clamped_edit(context.before, self.vertex, to);
+        Effect::preview(edit.map(|edit| vec![edit]))
     }
 
     fn marks(&self, context: &Context) -> Vec<Mark> {

@@ -84,6 +84,16 @@ pub enum Effect {
     Finish,
 }
 
+impl Effect {
+    /// Show what edits make, or say why they cannot be made.
+    pub fn preview(edits: Result<Vec<Edit>, impl std::fmt::Display>) -> Self {
+        match edits {
+            Ok(edits) => Self::Preview(edits),
+            Err(error) => Self::Say(error.to_string()),
+        }
+    }
+}
+
 /// A tool in the hand.
 pub trait Tool: std::fmt::Debug + Send {
     /// Take a gesture, and return its effects.
@@ -213,6 +223,14 @@ impl Context<'_> {
     pub fn angle(&self, free: f64) -> f64 {
         match self.modifiers.shift {
             true => by_fifteen_degrees(free),
+            false => free,
+        }
+    }
+
+    /// Keep a factor to tenths, at `least` of them, while Shift is held.
+    pub fn factor(&self, free: f64, least: f64) -> f64 {
+        match self.modifiers.shift {
+            true => (10.0 * free).round().max(least) / 10.0,
             false => free,
         }
     }

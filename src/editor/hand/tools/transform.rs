@@ -133,10 +133,7 @@ impl TransformTool {
                 Some(axis) => {
                     let along = seen_axis(axis, context).unwrap_or(DVec2::X);
                     let free = to.dot(along) / from.dot(along);
-                    let factor = match context.modifiers.shift {
-                        true => (free * 10.0).round() / 10.0,
-                        false => free,
-                    };
+                    let factor = context.factor(free, f64::NEG_INFINITY);
                     let names = context.drawing_plane().names();
                     let name = names.get(axis).copied().unwrap_or_default();
                     (
@@ -145,11 +142,7 @@ impl TransformTool {
                     )
                 }
                 None => {
-                    let free = to.length() / from.length();
-                    let factor = match context.modifiers.shift {
-                        true => (free * 10.0).round().max(1.0) / 10.0,
-                        false => free,
-                    };
+                    let factor = context.factor(to.length() / from.length(), 1.0);
                     (Transformation::Scale(factor), format!("× {factor:.3}"))
                 }
             },
@@ -206,11 +199,9 @@ impl Tool for TransformTool {
             (State::Turning(mut turning), Gesture::Drag(place)) => {
                 turning.now = context.model(place);
                 let (action, _) = self.action(&turning, context);
-                let preview = turning
-                    .taken
-                    .preview(action, turning.pivot, context.viewport);
+                let edits = turning.taken.edits(action, turning.pivot, context.viewport);
                 self.state = State::Turning(turning);
-                vec![preview]
+                vec![Effect::preview(edits)]
             }
             (State::Turning(_), Gesture::DragEnd(_)) => {
                 let staying = context.staying().map(Effect::Say);
@@ -256,7 +247,7 @@ impl Tool for TransformTool {
         };
         let taken = Transformed::of(context);
         effects.push(Effect::Begin(taken.label(typed)));
-        effects.push(taken.preview(typed, pivot, context.viewport));
+        effects.push(Effect::preview(taken.edits(typed, pivot, context.viewport)));
         self.state = State::Typed(typed);
         effects
     }

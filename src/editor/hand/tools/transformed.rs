@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::tool::{Context, Effect, move_edits};
+use super::tool::{Context, move_edits};
 use super::transformation::Transformation;
 use crate::document::{CurveId, Edit};
 use crate::editor::selection::VertexId;
@@ -83,26 +83,20 @@ impl Transformed {
         let mut edits = move_edits(moved);
         if let Some((id, curve)) = &self.reference {
             let placement = placed(curve.placement(), action, pivot, viewport)?;
-            edits.push(Edit::SetReference {
-                reference: *id,
-                curve: curve.clone().placed(placement),
-            });
+            edits.push(set_placement(*id, curve, placement));
         }
         Ok(edits)
     }
+}
 
-    /// Show it transformed about a pivot of the view plane.
-    pub(super) fn preview(
-        &self,
-        action: Transformation,
-        pivot: DVec2,
-        viewport: &Viewport,
-    ) -> Effect {
-        match self.edits(action, pivot, viewport) {
-            Ok(edits) => Effect::Preview(edits),
-            Err(error) => Effect::Say(error.to_string()),
-        }
-    }
+/// The edit that places a reference.
+pub(super) fn set_placement(
+    reference: CurveId,
+    curve: &ReferenceCurve,
+    placement: Placement,
+) -> Edit {
+    let curve = curve.clone().placed(placement);
+    Edit::SetReference { reference, curve }
 }
 
 /// Transform a placement: it turns about the direction of the view, as vertices do in the view plane.

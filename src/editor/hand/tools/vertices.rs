@@ -115,10 +115,8 @@ impl Adding {
     }
 
     fn preview(&self, vertex: DVec3) -> Effect {
-        match insertion(self.id, &self.curve, self.index, vertex) {
-            Ok(edit) => Effect::Preview(vec![edit]),
-            Err(error) => Effect::Say(error.to_string()),
-        }
+        let edit = insertion(self.id, &self.curve, self.index, vertex);
+        Effect::preview(edit.map(|edit| vec![edit]))
     }
 }
 
