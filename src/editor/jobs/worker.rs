@@ -65,15 +65,16 @@ impl<T: Send + 'static> Worker<T> {
         let (jobs, next) = channel::<Job<T>>();
         let (finished, replies) = channel();
         let awaited = Arc::new(Mutex::new(false));
-        let is_awaited = awaited.clone();
+        let caller = Arc::downgrade(&awaited);
         let serve = move || {
-            for job in next {
-                // A newer job has replaced it, or nobody wants it any more.
-                if job.progress.is_cancelled() {
-                    continue;
-                }
+            while let Ok(job) = next.recv() {
+                // A newer job replaces it, and none begins once the worker is dropped.
+                let job = next.try_iter().last().unwrap_or(job);
+                let Some(awaited) = caller.upgrade() else {
+                    return;
+                };
                 let reply = job.run();
-                let is_awaited = held(&is_awaited);
+                let is_awaited = held(&awaited);
                 let is_sent = finished.send(reply).is_ok();
                 let wakes = is_sent && !*is_awaited;
                 drop(is_awaited);
