@@ -35,9 +35,9 @@ impl Source {
     /// [`FileError`], naming the source and the place in it.
     pub(super) fn read(&self) -> Result<Reading, FileError> {
         let reading = match self {
-            Self::Standard(format) => disk::read_stream(io::stdin().lock(), &self.name(), *format),
+            Self::Standard(format) => disk::read_stream(io::stdin().lock(), &self.name(), format),
             Self::File(path, None) => disk::read_file(path),
-            Self::File(path, Some(format)) => disk::read_file_as(path, *format),
+            Self::File(path, Some(format)) => disk::read_file_as(path, format),
         }?;
         output::report(&self.name(), &reading.remarks);
         Ok(reading)

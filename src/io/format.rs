@@ -16,7 +16,7 @@ pub struct Format {
     /// The extensions of its files in lower case, without the dot. New files get the first.
     pub extensions: &'static [&'static str],
     /// Reads the bytes of a file; `None` if the format is only written.
-    pub(super) read: Option<fn(&[u8]) -> Result<Reading, ReadError>>,
+    pub(super) read: Option<ReadBytes>,
     /// Writes a document and reports what the file does not hold.
     pub(super) write: WriteDocument,
     /// Whether it holds matches and unknown keys; then a document can be saved in it.
@@ -24,6 +24,9 @@ pub struct Format {
     /// The exports that the menu offers.
     pub exports: &'static [ExportRow],
 }
+
+/// Read the bytes of a file.
+type ReadBytes = fn(&[u8]) -> Result<Reading, ReadError>;
 
 /// Write a document by one of its polygons; without a choice by those that the format prefers.
 type WriteDocument =

@@ -530,11 +530,9 @@ impl App {
                 self.dialog = Some(Dialog::Changed(after));
             }
             // In the system's dialogs the refusal stays the message.
-            (purpose, Err(Refusal(reason))) if requested.asks_again => {
-                if !self.files.is_native() {
-                    self.editor.dismiss_message();
-                    self.files.ask_again(purpose, &requested.path, reason);
-                }
+            (purpose, Err(Refusal(reason))) if requested.asks_again && !self.files.is_native() => {
+                self.editor.dismiss_message();
+                self.files.ask_again(purpose, &requested.path, reason);
             }
             (Purpose::Save(Some(after)), Ok(_)) => self.go_on(context, after),
             _ => {}

@@ -52,7 +52,7 @@ fn periodic() -> Curve {
 }
 
 fn written(curves: &[&Curve], polygon: Option<PolygonKind>) -> Result<Export, WriteError> {
-    let curves = curves.iter().map(|curve| Curve::clone(curve));
+    let curves = curves.iter().copied().cloned();
     DXF.write(&Document::from_curves(curves), polygon)
 }
 

@@ -22,7 +22,7 @@ fn curves_of(text: &str) -> Vec<Curve> {
 }
 
 fn text_of(curves: &[&Curve]) -> String {
-    let curves = curves.iter().map(|curve| Curve::clone(curve));
+    let curves = curves.iter().copied().cloned();
     let written = PROJECT.write(&Document::from_curves(curves), None);
     String::from_utf8(written.unwrap().bytes).unwrap()
 }
