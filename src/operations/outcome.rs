@@ -1,4 +1,4 @@
-//! What an operation comes to.
+//! The outcome of an operation: its edits, figures and marks.
 
 use glam::DVec3;
 
@@ -15,7 +15,7 @@ use crate::geometry::parameters::Quantity;
 use crate::geometry::{Approximation, End, FloatPolygon};
 
 /// Hold the outcome of an operation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// Whether what was asked for is reached; if not, edits are those of the best that was found, if
     /// there is one.
@@ -46,9 +46,10 @@ pub struct Outcome {
 }
 
 /// How far a curve moves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Deviation {
     /// It is the same curve, but for the rounding of numbers to doubles.
+    #[default]
     Exact,
     /// Its points move by no more than this length: a proved bound.
     AtMost(f64),
@@ -100,63 +101,43 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Tell a number of things.
+    /// Count items.
     pub(super) fn count(name: &'static str, label: &'static str, count: usize) -> Self {
-        Self {
-            name,
-            label,
-            value: Value::Whole(count),
-            quantity: Quantity::Number,
-        }
+        Self::new(name, label, Value::Whole(count), Quantity::Number)
     }
 
-    /// Tell a length.
+    /// Report a length.
     pub(super) fn length(name: &'static str, label: &'static str, length: f64) -> Self {
-        Self {
-            name,
-            label,
-            value: Value::Real(length),
-            quantity: Quantity::Length,
-        }
+        Self::new(name, label, Value::Real(length), Quantity::Length)
     }
 
-    /// Tell a mere number.
+    /// Report a plain number.
     pub(super) fn number(name: &'static str, label: &'static str, number: f64) -> Self {
-        Self {
-            name,
-            label,
-            value: Value::Real(number),
-            quantity: Quantity::Number,
-        }
+        Self::new(name, label, Value::Real(number), Quantity::Number)
     }
 
-    /// Tell the numbers of some things, counted from 0.
+    /// List the numbers of items, counted from 0.
     pub(super) fn indices(name: &'static str, label: &'static str, indices: &[usize]) -> Self {
-        Self {
-            name,
-            label,
-            value: Value::Indices(indices.to_vec()),
-            quantity: Quantity::Number,
-        }
+        let value = Value::Indices(indices.to_vec());
+        Self::new(name, label, value, Quantity::Number)
     }
 
-    /// Tell an end of a first curve and one of a second.
+    /// Report an end of a first curve and one of a second.
     pub(super) fn ends(name: &'static str, label: &'static str, ends: [End; 2]) -> Self {
-        Self {
-            name,
-            label,
-            value: Value::Ends(ends),
-            quantity: Quantity::Number,
-        }
+        Self::new(name, label, Value::Ends(ends), Quantity::Number)
     }
 
-    /// Tell an angle, in radians.
+    /// Report an angle, in radians.
     pub(super) fn angle(name: &'static str, label: &'static str, radians: f64) -> Self {
+        Self::new(name, label, Value::Real(radians), Quantity::Angle)
+    }
+
+    fn new(name: &'static str, label: &'static str, value: Value, quantity: Quantity) -> Self {
         Self {
             name,
             label,
-            value: Value::Real(radians),
-            quantity: Quantity::Angle,
+            value,
+            quantity,
         }
     }
 }
@@ -212,17 +193,8 @@ impl Outcome {
     pub(super) fn unchanged(deviation: Deviation) -> Self {
         Self {
             reached: true,
-            residual: None,
-            edits: Vec::new(),
             deviation,
-            renumbered: false,
-            figures: Vec::new(),
-            equivalence: None,
-            remarks: Vec::new(),
-            annotations: Vec::new(),
-            joint: None,
-            handles: Vec::new(),
-            atlas: None,
+            ..Self::default()
         }
     }
 
