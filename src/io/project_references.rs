@@ -15,7 +15,7 @@ use crate::geometry::references::{
 };
 
 /// A reference: a kind with its values, formulas, or points, each over an interval and placed.
-#[derive(Deserialize, Serialize)]
+#[derive(Default, Deserialize, Serialize)]
 #[serde(expecting = "a reference, which is a JSON object")]
 pub(super) struct ProjectReference {
     #[serde(default)]
@@ -66,14 +66,7 @@ impl ProjectReference {
             colour: reference.colour.map(ByName),
             visible: (!reference.visible).then_some(false),
             locked: reference.locked.then_some(true),
-            kind: None,
-            values: BTreeMap::new(),
-            formula: None,
-            points: None,
-            interval: None,
-            rotation: None,
-            scale: None,
-            translation: None,
+            ..Self::default()
         };
         match curve.form() {
             ReferenceForm::Analytic(form) => {
