@@ -45,7 +45,7 @@ impl Editor {
         self.message = None;
         self.interrupt();
         let input = self.input_of(operation);
-        let begun = self.operating().preview(operation, input);
+        let begun = self.operating().preview(operation, input, &[], None);
         self.tell(begun.map(|()| Note::silent()))
     }
 

@@ -187,33 +187,20 @@ impl GestureMachine {
 
     fn released(&mut self, button: Button, at: DVec2) -> Vec<Gesture> {
         self.pointer = Some(at);
-        match (self.state, button) {
-            (State::Pressed { origin }, Button::Primary) => {
-                self.state = State::Idle;
-                vec![Gesture::Click(origin)]
+        let gestures = match (self.state, button) {
+            (State::Pressed { origin }, Button::Primary) => vec![Gesture::Click(origin)],
+            (State::Dragging, Button::Primary) => vec![Gesture::DragEnd(at)],
+            (State::Orbiting { turned: false, .. }, Button::Secondary) => {
+                vec![Gesture::SecondaryClick(at)]
             }
-            (State::Dragging, Button::Primary) => {
-                self.state = State::Idle;
-                vec![Gesture::DragEnd(at)]
-            }
-            (State::Panning { button: held, .. }, released) if held == released => {
-                self.state = State::Idle;
+            (State::Panning { button: held, .. }, released) if held == released => Vec::new(),
+            (State::Spent, Button::Primary) | (State::Orbiting { .. }, Button::Secondary) => {
                 Vec::new()
             }
-            (State::Spent, Button::Primary) => {
-                self.state = State::Idle;
-                Vec::new()
-            }
-            (State::Orbiting { turned, .. }, Button::Secondary) => {
-                self.state = State::Idle;
-                if turned {
-                    Vec::new()
-                } else {
-                    vec![Gesture::SecondaryClick(at)]
-                }
-            }
-            _ => Vec::new(),
-        }
+            _ => return Vec::new(),
+        };
+        self.state = State::Idle;
+        gestures
     }
 }
 

@@ -17,15 +17,8 @@ use crate::editor::view::overlay::Hovering;
 use crate::editor::view::shown::Shown;
 use crate::editor::workspace::Workspace;
 
-/// How far an arrow key moves the selection, in units of the model.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::editor) struct NudgeStep(pub f64);
-
-impl Default for NudgeStep {
-    fn default() -> Self {
-        Self(0.1)
-    }
-}
+/// The movement of the selection by an arrow key until the user sets another, in units of the model.
+const NUDGE_STEP: f64 = 0.1;
 
 /// Hold the tool, its gesture, the selection, and which keys are held.
 #[derive(Debug, Default)]
@@ -38,7 +31,8 @@ pub struct Hand {
     /// The axis of the model (0 x, 1 y, 2 z) whose key is held.
     pub(in crate::editor) axis: Option<usize>,
     pub(in crate::editor) snapping: bool,
-    pub(in crate::editor) nudge_step: NudgeStep,
+    /// The movement of the selection by an arrow key that the user set.
+    nudge_step: Option<f64>,
     pub(in crate::editor) cycle: Cycle,
     pub(in crate::editor) following: Following,
     /// Whether features are kept while dragging.
@@ -67,7 +61,7 @@ impl Hand {
     /// Let an arrow key move the selection by a step, at any zoom; other numbers change nothing.
     pub fn set_nudge_step(&mut self, step: f64) {
         if Self::NUDGE_STEPS.contains(&step) {
-            self.nudge_step = NudgeStep(step);
+            self.nudge_step = Some(step);
         }
     }
 
@@ -172,7 +166,7 @@ impl Hand {
 
     /// How far an arrow key moves the selection.
     pub fn nudge_step(&self) -> f64 {
-        self.nudge_step.0
+        self.nudge_step.unwrap_or(NUDGE_STEP)
     }
 
     /// How the neighbours of dragged vertices follow.

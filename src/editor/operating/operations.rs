@@ -90,15 +90,6 @@ impl Operating<'_> {
         self.current().filter(|it| !it.is_applied())
     }
 
-    /// Preview an operation. A preview that is open must be ended before.
-    pub(in crate::editor) fn preview(
-        &mut self,
-        operation: &'static Operation,
-        input: Result<Operands, OperationError>,
-    ) -> Result<(), Refusal> {
-        self.begin(operation, input, &[], None)
-    }
-
     /// Apply an operation with some values, now or once its run is finished. A preview that is open
     /// must be ended before.
     ///
@@ -111,7 +102,7 @@ impl Operating<'_> {
         given: &[(&str, Value)],
         end_fit: Option<EndFitStep>,
     ) -> Reply {
-        let begun = self.begin(operation, input, given, end_fit);
+        let begun = self.preview(operation, input, given, end_fit);
         let reply = begun.and_then(|()| self.settle());
         if reply.is_err() {
             self.leave();
@@ -262,8 +253,11 @@ impl Operating<'_> {
         }
     }
 
-    /// Preview an operation with some values, and run it.
-    fn begin(
+    /// Preview an operation with some values, and run it. A preview that is open must be ended before.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it cannot run; nothing is changed then.
+    pub(in crate::editor) fn preview(
         &mut self,
         operation: &'static Operation,
         input: Result<Operands, OperationError>,

@@ -52,16 +52,12 @@ impl Sleeve {
             let aside = sine / distance * along.perp();
             let [mut right, mut left] = [ahead - aside, ahead + aside];
             if let Some(before) = self.borders {
-                right = if before[0].perp_dot(right) < 0.0 {
-                    before[0]
-                } else {
-                    right
-                };
-                left = if left.perp_dot(before[1]) < 0.0 {
-                    before[1]
-                } else {
-                    left
-                };
+                if before[0].perp_dot(right) < 0.0 {
+                    right = before[0];
+                }
+                if left.perp_dot(before[1]) < 0.0 {
+                    left = before[1];
+                }
             }
             self.borders = Some([right, left]);
         }

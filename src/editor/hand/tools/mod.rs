@@ -29,7 +29,7 @@ use draw::DrawTool;
 use end_fit::EndFitTool;
 use measure::MeasureTool;
 use select::SelectTool;
-use transform::{Transform, TransformTool};
+use transform::TransformTool;
 use vertices::{DeleteTool, NewVertex, NewVertexTool};
 
 /// Hold the tool in use.
@@ -141,12 +141,12 @@ static TOOLS: &[ToolRow] = &[
         .made_by(|| Box::new(DrawTool::default())),
     row(ToolKind::Rotate, 'r', "Rotate", "rotate-cw")
         .help("Rotate the selection about a movable pivot")
-        .made_by(|| Box::new(TransformTool::new(Transform::Rotate)))
+        .made_by(|| Box::new(TransformTool::rotate()))
         .starting_group()
         .with_panel(),
     row(ToolKind::Scale, 's', "Scale", "scaling")
         .help("Scale the selection about a movable pivot")
-        .made_by(|| Box::new(TransformTool::new(Transform::Scale)))
+        .made_by(|| Box::new(TransformTool::scale()))
         .with_panel(),
     row(ToolKind::Measure, 'm', "Measure", "ruler")
         .help("Measure a distance and its direction")

@@ -22,19 +22,11 @@ const RING: f64 = 88.0;
 /// Half the side of the box that scales, in screen points.
 const HALF_BOX: f64 = 64.0;
 
-/// The transformation of a drag.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Transform {
-    /// Turn them about the pivot.
-    Rotate,
-    /// Scale them about the pivot.
-    Scale,
-}
-
 /// The rotate or the scale tool's state.
 #[derive(Debug)]
 pub struct TransformTool {
-    transform: Transform,
+    /// The transformation that changes nothing.
+    resting: Transformation,
     state: State,
 }
 
@@ -62,12 +54,23 @@ struct Turning {
 }
 
 impl TransformTool {
-    /// Take a tool that rotates or scales.
-    pub fn new(transform: Transform) -> Self {
-        Self {
-            transform,
-            state: State::Idle,
-        }
+    /// Take the tool that rotates.
+    pub fn rotate() -> Self {
+        Self::resting(Transformation::Rotate(0.0))
+    }
+
+    /// Take the tool that scales.
+    pub fn scale() -> Self {
+        Self::resting(Transformation::Scale(1.0))
+    }
+
+    fn resting(resting: Transformation) -> Self {
+        let state = State::Idle;
+        Self { resting, state }
+    }
+
+    fn rotates(&self) -> bool {
+        matches!(self.resting, Transformation::Rotate(_))
     }
 
     fn start(&mut self, place: DVec2, context: &Context) -> Vec<Effect> {
@@ -81,7 +84,7 @@ impl TransformTool {
             self.state = State::MovingPivot { before };
             return Vec::new();
         }
-        let label = taken.label(self.resting());
+        let label = taken.label(self.resting);
         let origin = context.model(place);
         let axis = self.sides(pivot, &taken, context).into_iter();
         let mut axis =
@@ -97,17 +100,9 @@ impl TransformTool {
         vec![Effect::Begin(label)]
     }
 
-    /// What changes nothing.
-    fn resting(&self) -> Transformation {
-        match self.transform {
-            Transform::Rotate => Transformation::Rotate(0.0),
-            Transform::Scale => Transformation::Scale(1.0),
-        }
-    }
-
     /// The handles that scale along one axis, with the axis.
     fn sides(&self, pivot: DVec2, taken: &Transformed, context: &Context) -> Vec<(usize, DVec2)> {
-        if self.transform == Transform::Rotate || !taken.can_stretch() {
+        if self.rotates() || !taken.can_stretch() {
             return Vec::new();
         }
         let reach = HALF_BOX * context.viewport.pixel();
@@ -121,32 +116,21 @@ impl TransformTool {
     /// The transformation of the drag, with a label.
     fn action(&self, turning: &Turning, context: &Context) -> (Transformation, String) {
         let (from, to) = (turning.origin - turning.pivot, turning.now - turning.pivot);
-        match self.transform {
-            Transform::Rotate => {
-                let angle = context.angle(from.angle_to(to));
-                (
-                    Transformation::Rotate(angle),
-                    format!("{:.2}°", angle.to_degrees()),
-                )
-            }
-            Transform::Scale => match turning.axis {
-                Some(axis) => {
-                    let along = seen_axis(axis, context).unwrap_or(DVec2::X);
-                    let free = to.dot(along) / from.dot(along);
-                    let factor = context.factor(free, f64::NEG_INFINITY);
-                    let names = context.drawing_plane().names();
-                    let name = names.get(axis).copied().unwrap_or_default();
-                    (
-                        Transformation::Stretch(axis, factor),
-                        format!("{name} × {factor:.3}"),
-                    )
-                }
-                None => {
-                    let factor = context.factor(to.length() / from.length(), 1.0);
-                    (Transformation::Scale(factor), format!("× {factor:.3}"))
-                }
-            },
+        if self.rotates() {
+            let angle = context.angle(from.angle_to(to));
+            let label = format!("{:.2}°", angle.to_degrees());
+            return (Transformation::Rotate(angle), label);
         }
+        let Some(axis) = turning.axis else {
+            let factor = context.factor(to.length() / from.length(), 1.0);
+            return (Transformation::Scale(factor), format!("× {factor:.3}"));
+        };
+        let along = seen_axis(axis, context).unwrap_or(DVec2::X);
+        let factor = context.factor(to.dot(along) / from.dot(along), f64::NEG_INFINITY);
+        let names = context.drawing_plane().names();
+        let name = names.get(axis).copied().unwrap_or_default();
+        let label = format!("{name} × {factor:.3}");
+        (Transformation::Stretch(axis, factor), label)
     }
 }
 
@@ -222,9 +206,9 @@ impl Tool for TransformTool {
     }
 
     fn entry(&self, _viewport: &Viewport) -> Option<Entry> {
-        Some(match self.transform {
-            Transform::Rotate => Entry::Angle,
-            Transform::Scale => Entry::Factor,
+        Some(match self.rotates() {
+            true => Entry::Angle,
+            false => Entry::Factor,
         })
     }
 
@@ -261,16 +245,12 @@ impl Tool for TransformTool {
     }
 
     fn hint(&self, context: &Context) -> String {
-        let verb = match self.transform {
-            Transform::Rotate => "rotate",
-            Transform::Scale => "scale",
+        let [verb, steps, one_axis] = match self.rotates() {
+            true => ["rotate", "15°", ""],
+            false => ["scale", "tenths", ", a round handle for one axis"],
         };
         match self.state {
             State::Turning(_) => {
-                let steps = match self.transform {
-                    Transform::Rotate => "15°",
-                    Transform::Scale => "tenths",
-                };
                 let staying = context.staying().map(|staying| format!("{staying}; "));
                 let staying = staying.unwrap_or_default();
                 format!("{staying}Shift snaps to {steps}, hold Alt to compare, Esc cancels")
@@ -280,15 +260,9 @@ impl Tool for TransformTool {
                 format!("Select vertices or a curve to {verb}; Esc ends")
             }
             State::Typed(_) => "Enter applies what is typed, Esc takes it back".into(),
-            State::Idle => {
-                let one_axis = match self.transform {
-                    Transform::Rotate => "",
-                    Transform::Scale => ", a round handle for one axis",
-                };
-                format!(
-                    "Drag to {verb} about the pivot{one_axis}, or type a number; drag the pivot itself to move it, double-click to centre it; Esc ends"
-                )
-            }
+            State::Idle => format!(
+                "Drag to {verb} about the pivot{one_axis}, or type a number; drag the pivot itself to move it, double-click to centre it; Esc ends"
+            ),
         }
     }
 
@@ -311,7 +285,7 @@ impl Tool for TransformTool {
         }
         let action = match &self.state {
             State::Typed(typed) => *typed,
-            _ => self.resting(),
+            _ => self.resting,
         };
         let pivot = pivot(context);
         let marks = pivot.map(|pivot| {
