@@ -45,8 +45,8 @@ impl Brush<'_> {
     /// Paint a chain as dashed lines.
     pub fn dashed_chain(&self, chain: &[DVec2], stroke: Stroke) {
         for line in self.screen.lines(chain) {
-            self.painter
-                .extend(Shape::dashed_line(&line, stroke, 5.0, 4.0));
+            let dashes = Shape::dashed_line(&line, stroke, 5.0, 4.0);
+            self.painter.extend(dashes);
         }
     }
 
@@ -96,8 +96,8 @@ impl Brush<'_> {
             let side = along.rot90();
             let head = |sign: f32| tip - along * 9.0 + side * (4.0 * sign);
             let points = vec![tip, head(1.0), head(-1.0)];
-            self.painter
-                .add(Shape::convex_polygon(points, stroke.color, Stroke::NONE));
+            let head = Shape::convex_polygon(points, stroke.color, Stroke::NONE);
+            self.painter.add(head);
         }
     }
 }

@@ -162,10 +162,8 @@ fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
             let items = Item::all(editor);
             let active = items.iter().find(|item| item.active);
             let count = active.map_or(0, |active| {
-                let same = items
-                    .iter()
-                    .filter(|it| it.is_reference == active.is_reference);
-                same.count()
+                let is_same = |it: &&Item| it.is_reference == active.is_reference;
+                items.iter().filter(is_same).count()
             });
             let place = active.map(|active| active.place);
             for (icon, name, to) in [
@@ -291,8 +289,8 @@ impl Item {
         let hovering = response.dnd_hover_payload::<CurveId>();
         if hovering.is_some_and(|dragged| *dragged != self.id) {
             let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
-            ui.painter()
-                .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+            let painter = ui.painter();
+            painter.rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
         }
         let dropped = response.dnd_release_payload::<CurveId>();
         if let Some(dropped) = dropped.filter(|dropped| **dropped != self.id) {

@@ -33,36 +33,31 @@ fn colour(kind: FeatureKind, tokens: &Tokens) -> Color32 {
 /// inflection, a square for a zero of the torsion, a cross for a cusp, a ring for an
 /// undecided feature.
 pub fn glyph(painter: &Painter, at: Pos2, kind: FeatureKind, tokens: &Tokens) {
-    let own = colour(kind, tokens);
-    let stroke = Stroke::new(1.5, own);
-    let corners = |corners: &[(f32, f32)]| -> Vec<Pos2> {
-        let corner = |(x, y): &(f32, f32)| at + HALF * vec2(*x, *y);
-        corners.iter().map(corner).collect()
-    };
-    let shape = |points: Vec<Pos2>| Shape::convex_polygon(points, tokens.background, stroke);
-    match kind {
+    let stroke = Stroke::new(1.5, colour(kind, tokens));
+    let corners: &[(f32, f32)] = match kind {
         FeatureKind::CurvatureMaximum | FeatureKind::TorsionMaximum => {
-            painter.add(shape(corners(&[(0.0, -1.1), (1.0, 0.8), (-1.0, 0.8)])));
+            &[(0.0, -1.1), (1.0, 0.8), (-1.0, 0.8)]
         }
         FeatureKind::CurvatureMinimum | FeatureKind::TorsionMinimum => {
-            painter.add(shape(corners(&[(0.0, 1.1), (-1.0, -0.8), (1.0, -0.8)])));
+            &[(0.0, 1.1), (-1.0, -0.8), (1.0, -0.8)]
         }
-        FeatureKind::Inflection => {
-            let diamond = [(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)];
-            painter.add(shape(corners(&diamond)));
-        }
-        FeatureKind::TorsionZero => {
-            let square = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)];
-            painter.add(shape(corners(&square)));
-        }
+        FeatureKind::Inflection => &[(0.0, -1.2), (1.2, 0.0), (0.0, 1.2), (-1.2, 0.0)],
+        FeatureKind::TorsionZero => &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
         FeatureKind::Cusp => {
-            for (x, y) in [(1.0, 1.0), (1.0, -1.0)] {
-                let arm = HALF * vec2(x, y);
+            for arm in [vec2(HALF, HALF), vec2(HALF, -HALF)] {
                 painter.line_segment([at - arm, at + arm], stroke);
             }
+            return;
         }
         FeatureKind::Undecided => {
             painter.circle(at, HALF, tokens.background, stroke);
+            return;
         }
-    }
+    };
+    let corners = corners.iter().map(|(x, y)| at + HALF * vec2(*x, *y));
+    painter.add(Shape::convex_polygon(
+        corners.collect(),
+        tokens.background,
+        stroke,
+    ));
 }

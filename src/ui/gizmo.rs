@@ -35,11 +35,8 @@ pub fn place(canvas: Rect) -> Option<Rect> {
 /// The place of the name of the view, below the gizmo.
 pub fn name_place(canvas: Rect) -> Option<Rect> {
     let gizmo = place(canvas)?;
-    let size = vec2(SIZE, 4.0 * STEP);
-    Some(Rect::from_min_size(
-        gizmo.left_bottom() - vec2(0.0, 2.0 * STEP),
-        size,
-    ))
+    let corner = gizmo.left_bottom() - vec2(0.0, 2.0 * STEP);
+    Some(Rect::from_min_size(corner, vec2(SIZE, 4.0 * STEP)))
 }
 
 /// Show the gizmo over the canvas.
@@ -78,8 +75,8 @@ fn name_ui(ui: &Ui, rect: Rect, name: &str) {
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, label.clone()));
     let (centre, font) = (rect.center(), theme::small_font());
     let colour = Tokens::of(ui).faint_text;
-    ui.painter()
-        .text(centre, Align2::CENTER_CENTER, name, font, colour);
+    let painter = ui.painter();
+    painter.text(centre, Align2::CENTER_CENTER, name, font, colour);
 }
 
 /// The view along the axis whose tip is at a place.
@@ -104,10 +101,8 @@ fn paint(ui: &Ui, rect: Rect, view: &Orientation, response: &Response) {
     }
     // Axes that point away from the eye lie behind the others.
     let mut order = [0, 1, 2];
-    order.sort_by(|a, b| {
-        let depth = |axis: &usize| view.depth(DVec3::AXES[*axis]);
-        depth(a).total_cmp(&depth(b))
-    });
+    let depth = |axis: &usize| view.depth(DVec3::AXES[*axis]);
+    order.sort_by(|a, b| depth(a).total_cmp(&depth(b)));
     for axis in order {
         arm(&painter, centre, view, axis, tokens);
     }
@@ -118,11 +113,6 @@ fn arm(painter: &Painter, centre: Pos2, view: &Orientation, axis: usize, tokens:
     let end = tip(centre, view, axis);
     painter.line_segment([centre, end], Stroke::new(2.0, colour));
     painter.circle(end, TIP, tokens.background, Stroke::new(1.5, colour));
-    painter.text(
-        end,
-        Align2::CENTER_CENTER,
-        NAMES[axis],
-        theme::small_font(),
-        colour,
-    );
+    let (name, font) = (NAMES[axis], theme::small_font());
+    painter.text(end, Align2::CENTER_CENTER, name, font, colour);
 }

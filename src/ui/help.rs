@@ -88,8 +88,8 @@ fn places_id() -> Id {
 pub fn mark(ui: &Ui, rect: Rect, topic: Topic) {
     let place = (ui.layer_id(), rect, topic);
     ui.data_mut(|data| {
-        data.get_temp_mut_or_default::<Places>(places_id())
-            .push(place)
+        let places: &mut Places = data.get_temp_mut_or_default(places_id());
+        places.push(place);
     });
 }
 
@@ -106,9 +106,8 @@ pub fn take_key(context: &Context) -> Option<Topic> {
     let focused = focused.and_then(|id| context.read_response(id));
     let focused = focused.map(|response| (response.layer_id, response.rect.center()));
     let under = |(layer, at): (LayerId, Pos2)| {
-        let around = places
-            .iter()
-            .filter(|(of, rect, _)| *of == layer && rect.contains(at));
+        let all = places.iter();
+        let around = all.filter(|(of, rect, _)| *of == layer && rect.contains(at));
         around.min_by(|(_, a, _), (_, b, _)| a.area().total_cmp(&b.area()))
     };
     let open = || {
@@ -117,11 +116,8 @@ pub fn take_key(context: &Context) -> Option<Topic> {
             layer.order == Order::Foreground && matches!(topic, Topic::Menu(_))
         })
     };
-    let found = pointer
-        .and_then(under)
-        .or(focused.and_then(under))
-        .or_else(open);
-    let (.., topic) = found?;
+    let found = pointer.and_then(under).or(focused.and_then(under));
+    let (.., topic) = found.or_else(open)?;
     context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1));
     Some(*topic)
 }
@@ -146,11 +142,9 @@ impl Help {
         self.is_open = true;
         if self.pages.is_empty() {
             self.pages = manual::pages();
-            for link in self.pages.iter().flat_map(|page| &page.sections) {
-                for link in manual::links(&link.text) {
-                    self.cache.add_link_hook(link);
-                }
-            }
+            let sections = self.pages.iter().flat_map(|page| &page.sections);
+            let links = sections.flat_map(|section| manual::links(&section.text));
+            links.for_each(|link| self.cache.add_link_hook(link));
         }
     }
 
@@ -225,12 +219,10 @@ impl Help {
                 ui.add_space(2.0 * STEP);
             }
         });
-        let hooks = self.cache.link_hooks().iter();
-        let followed = hooks
-            .filter(|(_, clicked)| **clicked)
-            .map(|(link, _)| link.clone());
-        if let Some(link) = followed.collect::<Vec<_>>().first() {
-            self.follow(link);
+        let mut hooks = self.cache.link_hooks().iter();
+        let followed = hooks.find(|(_, is_clicked)| **is_clicked);
+        if let Some(link) = followed.map(|(link, _)| link.clone()) {
+            self.follow(&link);
         }
     }
 

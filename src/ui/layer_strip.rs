@@ -112,12 +112,11 @@ fn caption_ui(ui: &mut Ui, text: &str, width: f32) {
 fn scale_ui(ui: &mut Ui, editor: &mut Editor) {
     let mut comb = editor.view().comb();
     let shown = figures::significant(comb.scale, 4);
-    let field = NumberField::new("Comb scale", comb.scale, shown)
+    let field = NumberField::new("Comb scale", comb.scale, shown).width(76.0);
+    let field = field
         .range(1e-12..=1e15)
-        .speed(0.02 * comb.scale.max(1e-12))
-        .width(76.0)
-        .help("Scale of the curvature comb");
-    if let Some(scale) = field.changed(ui) {
+        .speed(0.02 * comb.scale.max(1e-12));
+    if let Some(scale) = field.help("Scale of the curvature comb").changed(ui) {
         comb.scale = scale;
         editor.view_mut().set_comb(comb);
     }
@@ -125,14 +124,11 @@ fn scale_ui(ui: &mut Ui, editor: &mut Editor) {
 
 fn density_ui(ui: &mut Ui, editor: &mut Editor) {
     let mut comb = editor.view().comb();
-    let shown = comb.density.to_string();
     let (least, most) = CombSettings::DENSITY.into_inner();
-    let field = NumberField::new("Comb density", comb.density as f64, shown)
-        .range(least as f64..=most as f64)
-        .speed(0.25)
-        .width(44.0)
-        .help("Teeth of the comb per segment");
-    if let Some(density) = field.changed(ui) {
+    let density = comb.density as f64;
+    let field = NumberField::new("Comb density", density, comb.density.to_string()).width(44.0);
+    let field = field.range(least as f64..=most as f64).speed(0.25);
+    if let Some(density) = field.help("Teeth of the comb per segment").changed(ui) {
         comb.density = density.round().max(0.0) as usize;
         editor.view_mut().set_comb(comb);
     }

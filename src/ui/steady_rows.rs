@@ -19,15 +19,12 @@ impl SteadyRows {
                 self.names.push(name);
             }
         }
-        let mut rows: Vec<_> = rows
-            .into_iter()
-            .map(|(name, row)| (name, Some(row)))
-            .collect();
+        let rows = rows.into_iter().map(|(name, row)| (name, Some(row)));
+        let mut rows: Vec<_> = rows.collect();
         let places = self.names.iter().map(|name| {
-            let mut own = rows
-                .iter_mut()
-                .filter(|(other, row)| other == name && row.is_some());
-            (*name, own.next().and_then(|(_, row)| row.take()))
+            let mut all = rows.iter_mut();
+            let own = all.find(|(other, row)| other == name && row.is_some());
+            (*name, own.and_then(|(_, row)| row.take()))
         });
         places.collect()
     }

@@ -108,8 +108,8 @@ impl Rows<'_> {
         if let Some((icon, colour)) = shown {
             let (text, font) = (char::from(icon), theme::icon_font(SIGN));
             let centre = rect.center();
-            ui.painter()
-                .text(centre, Align2::CENTER_CENTER, text, font, colour);
+            let painter = ui.painter();
+            painter.text(centre, Align2::CENTER_CENTER, text, font, colour);
         }
         if has_focus {
             widgets::focus_ring(ui, rect);

@@ -40,7 +40,6 @@ fn name(flow: Flow) -> &'static str {
 
 impl Plots {
     pub(super) fn harmony_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
-        let tokens = Tokens::of(ui);
         let held = is_held(ui, editor);
         let scene = editor.view().plots();
         let mut strips = Flow::ALL.to_vec();
@@ -66,13 +65,12 @@ impl Plots {
                 bounds,
                 size: DVec2::new(f64::from(width - LEFT), f64::from(height)),
             };
+            let (flow, last) = (*flow, count - 1.0);
             let strip = Strip {
-                flow: *flow,
+                flow,
                 scene,
                 pane,
-                last: count - 1.0,
-                spacing: 1.0 / pane.point().x as f32,
-                tokens,
+                last,
             };
             let shown = strip.show(ui, size, is_last);
             hovered = shown.inner.or(hovered);
@@ -136,15 +134,12 @@ struct Strip<'a> {
     pane: Pane,
     /// The number of the last vertex.
     last: f64,
-    /// How far two vertices are apart, in points.
-    spacing: f32,
-    tokens: &'static Tokens,
 }
 
 impl Strip<'_> {
     /// Show the strip; returns the abscissa under the pointer.
     fn show(&self, ui: &mut Ui, size: Vec2, with_axis: bool) -> PlotResponse<Option<f64>> {
-        let (flow, tokens) = (self.flow, self.tokens);
+        let (flow, tokens) = (self.flow, Tokens::of(ui));
         let is_signed = match flow {
             Flow::Legs => false,
             Flow::Turns | Flow::Curvatures => self.scene.planar,
@@ -165,7 +160,7 @@ impl Strip<'_> {
         let back = ui.painter().add(Shape::Noop);
         let shown = plot.show(ui, |plot| {
             plot.set_plot_bounds(self.pane.bounds);
-            self.draw(plot);
+            self.draw(plot, tokens);
             hovered_x(plot)
         });
         let rect = shown.response.rect;
@@ -182,8 +177,8 @@ impl Strip<'_> {
         shown
     }
 
-    fn draw(&self, plot: &mut PlotUi<'_>) {
-        let (flow, tokens, scene) = (self.flow as usize, self.tokens, self.scene);
+    fn draw(&self, plot: &mut PlotUi<'_>, tokens: &Tokens) {
+        let (flow, scene) = (self.flow as usize, self.scene);
         zero_line(plot, tokens);
         if let Some(before) = &scene.before {
             lines(plot, BEFORE, &before.flow[flow], before_colour(tokens));
@@ -205,8 +200,10 @@ impl Strip<'_> {
 
     fn series(&self, plot: &mut PlotUi<'_>, name: &str, points: &[DVec2], colour: Color32) {
         lines(plot, name, points, colour.gamma_multiply(0.6));
-        let radius = if self.spacing >= CROWDED[0] { 3.0 } else { 2.0 };
-        if self.spacing >= CROWDED[1] {
+        // How far two vertices are apart, in points.
+        let spacing = 1.0 / self.pane.point().x as f32;
+        let radius = if spacing >= CROWDED[0] { 3.0 } else { 2.0 };
+        if spacing >= CROWDED[1] {
             plot.points(dots_of(name, points, colour).radius(radius));
         }
     }
@@ -214,21 +211,19 @@ impl Strip<'_> {
 
 fn label(flow: Flow, hover: &HoverPosition<'_>) -> Option<String> {
     let HoverPosition::NearDataPoint {
-        position,
+        position: at,
         plot_name,
         ..
     } = hover
     else {
         return None;
     };
-    let value = figures::significant(position.y, 6);
+    let value = figures::significant(at.y, 6);
     let place = match flow {
-        Flow::Legs | Flow::TorsionAngles => format!("leg {} … {}", position.x, position.x + 1.0),
-        Flow::Turns | Flow::Curvatures => format!("vertex {}", position.x),
+        Flow::Legs | Flow::TorsionAngles => format!("leg {} … {}", at.x, at.x + 1.0),
+        Flow::Turns | Flow::Curvatures => format!("vertex {}", at.x),
     };
-    let of = match *plot_name {
-        "compared" => ", other curve",
-        _ => "",
-    };
+    let is_other = *plot_name == "compared";
+    let of = if is_other { ", other curve" } else { "" };
     Some(format!("{place}{of}\n{value}"))
 }

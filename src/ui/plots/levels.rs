@@ -109,25 +109,22 @@ impl Plots {
         });
         let dots = Dots::new(&series, &pane, hovered_dot);
         let [unit, units] = document_unit::names(ui.ctx());
-        let across = match is_graph {
-            true => format!("radius of curvature ρ ({units})"),
-            false => across_name(normalised, units),
+        let (across, scale, numbered) = if is_graph {
+            let name = format!("radius of curvature ρ ({units})");
+            (name, Scale::Logarithmic, [f64::MIN, f64::MAX])
+        } else {
+            (across_name(normalised, units), Scale::Even, [0.0, extent])
         };
         let upwards = axis_name(which, scene.planar, normalised, unit);
         let axes = Axes {
             names: [&across, &upwards],
-            scale: match is_graph {
-                true => Scale::Logarithmic,
-                false => Scale::Even,
+            scale,
+            least: if is_curvature && !scene.planar {
+                0.0
+            } else {
+                f64::MIN
             },
-            least: match is_curvature && !scene.planar {
-                true => 0.0,
-                false => f64::MIN,
-            },
-            numbered: match is_graph {
-                true => [f64::MIN, f64::MAX],
-                false => [0.0, extent],
-            },
+            numbered,
         };
         let near = self.near.and_then(|index| scene.features.get(index));
         let back = ui.painter().add(Shape::Noop);
@@ -176,16 +173,14 @@ impl Plots {
         if is_graph {
             return;
         }
-        let is_along = |x: &f64| (0.0..=extent).contains(x);
-        let along = hovered.filter(is_along);
-        let beyond = hovered.filter(|x| !is_along(x));
-        let vertex = beyond.and_then(|x| discrete::nearest_dot(scene, x));
+        let nearest = hovered.and_then(|x| discrete::nearest_dot(scene, x));
         self.look_closely(ui, editor, &bounds, length / extent);
-        if let Some(along) = along {
-            editor.view_mut().hover_length(along * length / extent);
-        }
-        if let Some(vertex) = vertex {
-            editor.view_mut().hover_vertex(vertex);
+        match (hovered, nearest) {
+            (Some(x), _) if (0.0..=extent).contains(&x) => {
+                editor.view_mut().hover_length(x * length / extent);
+            }
+            (_, Some(vertex)) => editor.view_mut().hover_vertex(vertex),
+            _ => {}
         }
     }
 }
@@ -258,9 +253,10 @@ fn label(
     near: Option<&FeatureMark>,
     hover: &HoverPosition<'_>,
 ) -> Option<String> {
-    let kappa = match which == LevelPlot::CURVATURE {
-        true => "κ ",
-        false => "",
+    let kappa = if which == LevelPlot::CURVATURE {
+        "κ "
+    } else {
+        ""
     };
     let figures = |x: f64, y: f64| (figures::significant(x, 5), figures::significant(y, 6));
     if let Some(feature) = near {
