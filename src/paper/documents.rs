@@ -3,20 +3,17 @@
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3};
-use thiserror::Error;
 
 use super::PaperPage;
 use crate::document::{Colour, Curve, Document, Reference};
-use crate::geometry::approximation::{
-    ApproximationError, MeasuredDeviation, Placing, UniformKnots, float_polygon,
-};
+use crate::geometry::approximation::{MeasuredDeviation, Placing, UniformKnots, float_polygon};
 use crate::geometry::end_correction::EndTarget;
-use crate::geometry::fairing::bridging::{Bridge, BridgeError, join};
+use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::mineur_farin::{Configuration, Format};
 use crate::geometry::paper::{
     PAPER_RADIUS, RoundingTest, equal_leg_bezier, paper_sides, regular_polygon,
 };
-use crate::geometry::references::{ReferenceCurve, ReferenceTextError};
+use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{End, FloatPolygon, PolygonError, Progress};
 
 /// The name of the curve that the rounding test changes.
@@ -26,22 +23,8 @@ pub(super) const SHORTENED: &str = "shortened";
 const BLUE: Colour = Colour([0x3B, 0x82, 0xD6]);
 const VERMILION: Colour = Colour([0xD5, 0x5E, 0x2A]);
 
-/// Say why a page has no document.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum PaperError {
-    /// A polygon is not valid.
-    #[error(transparent)]
-    Polygon(#[from] PolygonError),
-    /// The spiral cannot be approximated.
-    #[error(transparent)]
-    Approximation(#[from] ApproximationError),
-    /// A reference cannot be read.
-    #[error(transparent)]
-    Reference(#[from] ReferenceTextError),
-    /// Two parts cannot be joined.
-    #[error(transparent)]
-    Bridge(#[from] BridgeError),
-}
+/// Why a page has no document: a polygon, an approximation, a reference or a bridge that is not valid.
+pub type PaperError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Make the document of a page.
 pub(super) fn of(page: PaperPage) -> Result<Document, PaperError> {
@@ -144,11 +127,8 @@ fn spiral(vertices: usize) -> Result<Document, PaperError> {
         (Placing::OnCurve, "vertices on the spiral", VERMILION),
         (Placing::Quasi, "quasi-interpolation", BLUE),
     ] {
-        curves.push(coloured(
-            name,
-            float_polygon(&spiral, &knots, placing)?,
-            colour,
-        ));
+        let polygon = float_polygon(&spiral, &knots, placing)?;
+        curves.push(coloured(name, polygon, colour));
     }
     let spiral = Reference::new("conical spiral", spiral);
     Ok(Document::from_curves(curves).with_references([spiral]))

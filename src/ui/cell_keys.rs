@@ -51,42 +51,39 @@ pub enum CellKey {
 /// Take this frame's keys for a cell that is not being edited, in order. What follows one that
 /// begins an edit is left to the text field.
 pub fn for_cell(ui: &Ui) -> Vec<CellKey> {
+    take(ui, true)
+}
+
+/// Take the key out of this frame that ends the edit of a cell, if there is one.
+pub fn for_text(ui: &Ui) -> Option<CellKey> {
+    take(ui, false).pop()
+}
+
+fn take(ui: &Ui, is_idle: bool) -> Vec<CellKey> {
     let mut keys = Vec::new();
+    let mut is_over = false;
     ui.input_mut(|input| {
-        let mut is_edited = false;
         input.events.retain(|event| {
-            if is_edited {
+            if is_over {
                 return true;
             }
-            let (key, stays) = match event {
-                Event::Text(text) if begins_number(text) => (Some(CellKey::Replace), true),
-                Event::Text(text) if text == " " => (Some(CellKey::Edit), false),
-                Event::Copy | Event::Cut => (Some(CellKey::Copy), false),
-                Event::Paste(text) => (Some(CellKey::Paste(text.clone())), false),
-                _ => (key_of(event, true), false),
+            let key = match event {
+                Event::Text(text) if is_idle && begins_number(text) => Some(CellKey::Replace),
+                Event::Text(text) if is_idle && text == " " => Some(CellKey::Edit),
+                Event::Copy | Event::Cut if is_idle => Some(CellKey::Copy),
+                Event::Paste(text) if is_idle => Some(CellKey::Paste(text.clone())),
+                _ => key_of(event, is_idle),
             };
-            is_edited = matches!(key, Some(CellKey::Replace | CellKey::Edit));
+            // The text that begins a number is the field's first.
+            let stays = matches!(event, Event::Text(text) if text != " ");
+            let begins = matches!(key, Some(CellKey::Replace | CellKey::Edit));
+            is_over = key.is_some() && (begins || !is_idle);
             let is_taken = key.is_some();
             keys.extend(key);
             !is_taken || stays
         });
     });
     keys
-}
-
-/// Take the key out of this frame that ends the edit of a cell, if there is one.
-pub fn for_text(ui: &Ui) -> Option<CellKey> {
-    let mut found = None;
-    ui.input_mut(|input| {
-        input.events.retain(|event| {
-            if found.is_none() {
-                found = key_of(event, false);
-                return found.is_none();
-            }
-            true
-        });
-    });
-    found
 }
 
 fn begins_number(text: &str) -> bool {

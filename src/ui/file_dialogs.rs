@@ -101,7 +101,7 @@ impl FileDialogs {
     /// Ask for a path; `proposal` is where to begin. Dialogs that are open stay so.
     pub fn ask(&mut self, context: &Context, purpose: Purpose, proposal: PathBuf) {
         if !self.native {
-            self.open_prompt(purpose, &proposal);
+            self.prompt = Some(Prompt::new(purpose, &proposal));
             return;
         }
         let (sender, answer) = channel();
@@ -127,20 +127,9 @@ impl FileDialogs {
 
     /// Show the prompt again because the path could not be used.
     pub fn ask_again(&mut self, purpose: Purpose, path: &Path, error: String) {
-        self.open_prompt(purpose, path);
-        if let Some(prompt) = &mut self.prompt {
-            prompt.error = Some(error);
-        }
-    }
-
-    fn open_prompt(&mut self, purpose: Purpose, path: &Path) {
-        let text = path.display().to_string();
         self.prompt = Some(Prompt {
-            purpose,
-            text,
-            error: None,
-            replacing: None,
-            fresh: true,
+            error: Some(error),
+            ..Prompt::new(purpose, path)
         });
     }
 
@@ -149,13 +138,13 @@ impl FileDialogs {
         if self.prompt.is_some() {
             return None;
         }
+        let answer = |waiting: &Waiting| match waiting.answer.try_recv() {
+            Err(TryRecvError::Empty) => None,
+            Ok(paths) => Some(paths),
+            Err(TryRecvError::Disconnected) => Some(Vec::new()),
+        };
         let mut dialogs = self.waiting.iter().enumerate();
-        let (place, paths) =
-            dialogs.find_map(|(place, waiting)| match waiting.answer.try_recv() {
-                Err(TryRecvError::Empty) => None,
-                Ok(paths) => Some((place, paths)),
-                Err(TryRecvError::Disconnected) => Some((place, Vec::new())),
-            })?;
+        let (place, paths) = dialogs.find_map(|(place, it)| Some((place, answer(it)?)))?;
         let Waiting {
             purpose,
             proposal,
@@ -166,10 +155,9 @@ impl FileDialogs {
             let complete = completed(&purpose, path);
             // The system's dialog asked about the typed path, which had no extension.
             if complete != *path && replaces(&purpose, &complete) {
-                self.open_prompt(purpose, &complete);
-                if let Some(prompt) = &mut self.prompt {
-                    prompt.replacing = Some(complete);
-                }
+                let mut prompt = Prompt::new(purpose, &complete);
+                prompt.replacing = Some(complete);
+                self.prompt = Some(prompt);
                 return None;
             }
         }
@@ -178,7 +166,7 @@ impl FileDialogs {
         }
         if begun.elapsed() < UNAVAILABLE {
             self.native = false;
-            self.open_prompt(purpose, &proposal);
+            self.prompt = Some(Prompt::new(purpose, &proposal));
         }
         None
     }
@@ -200,6 +188,16 @@ impl FileDialogs {
 }
 
 impl Prompt {
+    fn new(purpose: Purpose, path: &Path) -> Self {
+        Self {
+            purpose,
+            text: path.display().to_string(),
+            error: None,
+            replacing: None,
+            fresh: true,
+        }
+    }
+
     /// Show the prompt; returns the path once the user confirms it, or `None` in its place to cancel.
     fn show(&mut self, ui: &mut Ui) -> Option<Option<PathBuf>> {
         let (title, verb) = self.purpose.words();

@@ -19,8 +19,14 @@ pub enum Column {
     Weight,
 }
 
+impl Default for Column {
+    fn default() -> Self {
+        Self::Axis(0)
+    }
+}
+
 /// A place in the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Cell {
     /// The row.
     pub vertex: usize,

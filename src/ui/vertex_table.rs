@@ -16,7 +16,7 @@ use super::draft::Remark;
 use super::figures;
 use super::keyboard::{self, Typing};
 use super::theme::{RADIUS, ROW, STEP, Tokens};
-use super::vertex_columns::{Cell, Column, MoreColumns};
+use super::vertex_columns::{Cell, MoreColumns};
 use super::vertex_rows::{HEAD, Rows, heading_ui, id};
 use crate::document::{Curve, CurveId};
 use crate::editor::Editor;
@@ -30,6 +30,7 @@ const KEYS: EventFilter = EventFilter {
 };
 
 /// The table's own state.
+#[derive(Default)]
 pub struct VertexTable {
     /// The selection in the last frame: a change from elsewhere is scrolled to.
     selected: Vec<usize>,
@@ -43,24 +44,6 @@ pub struct VertexTable {
     /// Whether the cell is to be brought into sight.
     follow: bool,
     remark: Option<(Cell, Remark)>,
-}
-
-impl Default for VertexTable {
-    fn default() -> Self {
-        Self {
-            selected: Vec::new(),
-            visible: 0..0,
-            offset: 0.0,
-            more: MoreColumns::default(),
-            cell: Cell {
-                vertex: 0,
-                column: Column::Axis(0),
-            },
-            entry: None,
-            follow: false,
-            remark: None,
-        }
-    }
 }
 
 impl VertexTable {

@@ -141,20 +141,15 @@ pub fn bounds_of(points: impl Iterator<Item = DVec2>) -> (DVec2, DVec2) {
     }
     let size = low.y.abs().max(high.y.abs());
     // Nothing but zeros has no size of its own.
-    let size = if size < f64::MIN_POSITIVE {
-        0.5 / FLAT
-    } else {
-        size
-    };
+    let is_zero = size < f64::MIN_POSITIVE;
+    let size = if is_zero { 0.5 / FLAT } else { size };
     let short = (20.0 * FLAT * size - (high.y - low.y)).max(0.0);
     let margin = 0.5 * short + MARGIN * (high.y - low.y + short);
     if high.x == low.x {
         high.x = low.x + 1.0;
     }
-    (
-        low - DVec2::new(0.0, margin),
-        high + DVec2::new(0.0, margin),
-    )
+    let margin = DVec2::new(0.0, margin);
+    (low - margin, high + margin)
 }
 
 /// The share of the values, at either end, that a plot may cut off if they are far beyond the
@@ -180,22 +175,15 @@ pub fn within_reason(
     let high = values.iter().copied().fold(to, f64::max);
     let reach = tallest * (to - from);
     if high - low < noise {
-        let flat = points.iter().map(|point| DVec2::new(point.x, low));
-        let (bottom, top) = bounds_of(flat);
-        return (
-            (
-                bottom - DVec2::new(0.0, noise),
-                top + DVec2::new(0.0, noise),
-            ),
-            None,
-        );
+        let (bottom, top) = bounds_of(points.iter().map(|point| point.with_y(low)));
+        let noise = DVec2::new(0.0, noise);
+        return ((bottom - noise, top + noise), None);
     }
     let (bottom, top) = (low.max(from - reach), high.min(to + reach));
-    let shown = points
-        .iter()
-        .map(|point| DVec2::new(point.x, point.y.clamp(bottom, top)));
+    let shown = |point: &DVec2| point.with_y(point.y.clamp(bottom, top));
     let is_cut = bottom > low || top < high;
-    (bounds_of(shown), is_cut.then_some((low, high)))
+    let bounds = bounds_of(points.iter().map(shown));
+    (bounds, is_cut.then_some((low, high)))
 }
 
 /// The least and the greatest of finite values but for the share at either end that may be cut off.
