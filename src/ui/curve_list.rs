@@ -1,15 +1,15 @@
 //! The list of curves, and of references below them.
 
 use eframe::egui::{
-    Align2, Color32, Context, CursorIcon, Id, Key, Rect, Response, Role, Sense, Stroke, StrokeKind,
-    TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, vec2,
+    Align2, Color32, Context, CursorIcon, Id, Key, Rect, Response, Role, Sense, TextEdit, Ui,
+    UiBuilder, Vec2, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
 use super::action::Action;
 use super::draft;
 use super::keyboard::{self, Typing};
-use super::theme::{RADIUS, ROW, STEP, Tokens};
+use super::theme::{ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::document::{Colour, CurveId, Edit};
 use crate::editor::{Command, Editor, MenuOf, told};
@@ -288,9 +288,7 @@ impl Item {
         }
         let hovering = response.dnd_hover_payload::<CurveId>();
         if hovering.is_some_and(|dragged| *dragged != self.id) {
-            let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
-            let painter = ui.painter();
-            painter.rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+            widgets::outline(ui, rect, 1.5, Tokens::of(ui).accent);
         }
         let dropped = response.dnd_release_payload::<CurveId>();
         if let Some(dropped) = dropped.filter(|dropped| **dropped != self.id) {

@@ -1,15 +1,14 @@
 //! The end-fit panel: the target, and the seven steps with their figures and buttons.
 
 use eframe::egui::{
-    Align2, Button, Frame, Panel, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo,
-    vec2,
+    Align2, Button, Frame, Panel, Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
 use super::end_fit_target::target_ui;
 use super::message::sentence;
 use super::number_field::{FieldEvent, NumberField};
-use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::theme::{self, ROW, STEP, Tokens};
 use super::{document_unit, figures, icons, widgets};
 use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, Refusal, told};
 use crate::geometry::end_correction::EndOverlap;
@@ -170,13 +169,9 @@ fn step_ui<R>(
             true => ("done", tokens.good),
             false => ("open", tokens.faint_text),
         };
-        let stroke = Stroke::new(1.0, colour);
-        ui.painter()
-            .rect_stroke(badge, RADIUS, stroke, StrokeKind::Inside);
-        let (text, font) = (number.to_string(), theme::small_font());
-        let centre = badge.center();
-        ui.painter()
-            .text(centre, Align2::CENTER_CENTER, text, font, tokens.text);
+        widgets::outline(ui, badge, 1.0, colour);
+        let (align, font) = (Align2::CENTER_CENTER, theme::small_font());
+        widgets::text_in(ui, badge, align, number, font, tokens.text);
         let name = format!("step {number}: {state}");
         response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
         ui.label(RichText::new(title).color(tokens.strong_text));

@@ -260,7 +260,7 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Resp
     response.on_hover_text(match sampled {
         true => format!("{kind}{bend}, sampled\nt {low}. Click to go there."),
         false => format!(
-            "{kind}{bend}\nu from {low}\nto {high}\n{width} wide. Click to go there and see the shortest moves that remove it."
+            "{kind}{bend}\nu from {low}\nto {high}\n{width} wide. Click to see the shortest moves that remove it."
         ),
     })
 }

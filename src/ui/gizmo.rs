@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::action::Action;
 use super::theme::{self, STEP, Tokens};
+use super::widgets;
 use crate::editor::{Command, Editor, Look, NamedView, Orientation, view_name};
 
 /// The gizmo's width and height, in points.
@@ -72,11 +73,9 @@ pub fn gizmo_ui(ui: &mut Ui, canvas: Rect, editor: &mut Editor, commands: &mut V
 fn name_ui(ui: &Ui, rect: Rect, name: &str) {
     let response = ui.interact(rect, Id::unique("view name"), Sense::hover());
     let label = format!("Seen from: {name}");
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, label.clone()));
-    let (centre, font) = (rect.center(), theme::small_font());
-    let colour = Tokens::of(ui).faint_text;
-    let painter = ui.painter();
-    painter.text(centre, Align2::CENTER_CENTER, name, font, colour);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
+    let (align, font) = (Align2::CENTER_CENTER, theme::small_font());
+    widgets::text_in(ui, rect, align, name, font, Tokens::of(ui).faint_text);
 }
 
 /// The view along the axis whose tip is at a place.

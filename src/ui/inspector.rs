@@ -1,8 +1,8 @@
 //! The inspector: everything of the active curve, in numbers.
 
 use eframe::egui::{
-    Align2, Button, Color32, Key, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind,
-    TextBuffer, TextEdit, Ui, Vec2, WidgetInfo, vec2,
+    Align2, Button, Color32, Key, Rect, Response, RichText, Role, Sense, TextBuffer, TextEdit, Ui,
+    Vec2, WidgetInfo, vec2,
 };
 use lucide_icons::Icon;
 
@@ -13,7 +13,7 @@ use super::harmony_list::harmony_list_ui;
 use super::keyboard::{self, Typing};
 use super::number_field::NumberField;
 use super::reference_panel;
-use super::theme::{self, RADIUS, ROW, STEP, Tokens};
+use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
 use crate::document::{Curve, CurveId, Edit, Reference};
@@ -235,9 +235,7 @@ fn colour_ui(ui: &mut Ui, editor: &mut Editor, item: &Item) {
 fn choice_ui(ui: &mut Ui, name: &str, colour: Color32) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
     if response.hovered() || response.has_focus() {
-        let stroke = Stroke::new(1.5, Tokens::of(ui).accent);
-        ui.painter()
-            .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+        widgets::outline(ui, rect, 1.5, Tokens::of(ui).accent);
     }
     let swatch = Rect::from_center_size(rect.center(), Vec2::splat(4.0 * STEP));
     widgets::swatch(ui, swatch, colour);

@@ -57,9 +57,8 @@ fn heading_ui(ui: &mut Ui, name: &str, text: &str, differs: bool) {
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     widgets::label_in(ui, rect, name, tokens.text);
     let colour = if differs { tokens.error } else { tokens.good };
-    let (at, font) = (rect.right_center(), theme::small_font());
-    ui.painter()
-        .text(at, Align2::RIGHT_CENTER, text, font, colour);
+    let (align, font) = (Align2::RIGHT_CENTER, theme::small_font());
+    widgets::text_in(ui, rect, align, text, font, colour);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {text}")));
 }
 

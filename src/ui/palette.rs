@@ -137,9 +137,8 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> Respons
     let label = inner.with_min_x(inner.left() + 7.0 * STEP);
     widgets::label_in(ui, label, &action.label_now(editor), colour);
     if let Some(text) = beside(action, editor) {
-        let (at, align) = (inner.right_center(), Align2::RIGHT_CENTER);
-        let font = theme::small_font();
-        ui.painter().text(at, align, text, font, tokens.faint_text);
+        let (align, font) = (Align2::RIGHT_CENTER, theme::small_font());
+        widgets::text_in(ui, inner, align, text, font, tokens.faint_text);
     }
     let name = action.name_now(editor);
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &name));

@@ -128,12 +128,10 @@ impl PaperPanel {
         });
         let slider = slider.inner;
         ui.horizontal(|ui| {
-            for (shortening, name) in [
-                (Shortening::CutOff, "Cut off, as the paper does"),
-                (Shortening::Rounded, "Round"),
-            ] {
-                ui.selectable_value(&mut figures.shortening, shortening, name);
-            }
+            let shortening = &mut figures.shortening;
+            let cut_off = ui.selectable_value(shortening, Shortening::CutOff, "Cut off");
+            cut_off.on_hover_text("As the paper does");
+            ui.selectable_value(shortening, Shortening::Rounded, "Round");
         });
         let changed = before != (figures.digits, figures.shortening);
         if changed && let Some(test) = figures.rounding() {

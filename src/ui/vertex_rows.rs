@@ -178,9 +178,15 @@ pub fn heading_ui(ui: &mut Ui, columns: &[Column], width: f32) {
         let colour = Tokens::of(ui).faint_text;
         let mut cell = |text: &str, width: f32| {
             let (rect, _) = ui.allocate_exact_size(vec2(width, 5.0 * STEP), Sense::hover());
-            let at = rect.right_center() - vec2(1.5 * STEP, 0.0);
-            ui.painter()
-                .text(at, Align2::RIGHT_CENTER, text, theme::small_font(), colour);
+            let rect = rect.with_max_x(rect.right() - 1.5 * STEP);
+            widgets::text_in(
+                ui,
+                rect,
+                Align2::RIGHT_CENTER,
+                text,
+                theme::small_font(),
+                colour,
+            );
         };
         cell("vertex", NUMBER);
         cell("", LOCK);

@@ -4,10 +4,7 @@
 use std::ops::Range;
 
 use eframe::egui::style::ScrollAnimation;
-use eframe::egui::{
-    Event, EventFilter, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo,
-    vec2,
-};
+use eframe::egui::{Event, EventFilter, Rect, Role, ScrollArea, Sense, Ui, Vec2, WidgetInfo, vec2};
 
 use super::cell_entry::Entry;
 use super::cell_keys::{self, CellKey, Step};
@@ -15,9 +12,10 @@ use super::document_unit;
 use super::draft::Remark;
 use super::figures;
 use super::keyboard::{self, Typing};
-use super::theme::{RADIUS, ROW, STEP, Tokens};
+use super::theme::{ROW, STEP, Tokens};
 use super::vertex_columns::{Cell, MoreColumns};
 use super::vertex_rows::{HEAD, Rows, heading_ui, id};
+use super::widgets;
 use crate::document::{Curve, CurveId};
 use crate::editor::Editor;
 
@@ -339,9 +337,7 @@ impl VertexTable {
     /// Outline the cell that keys are for, and take part in the order of Tab.
     fn cell_focus_ui(&self, ui: &mut Ui, rect: Rect) {
         if has_keyboard(ui) {
-            let stroke = Stroke::new(2.0, Tokens::of(ui).accent);
-            ui.painter()
-                .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+            widgets::outline(ui, rect, 2.0, Tokens::of(ui).accent);
         }
         if self.entry.is_none() || !has_keyboard(ui) {
             focus_ui(ui, rect);

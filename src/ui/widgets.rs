@@ -113,23 +113,24 @@ pub fn cell(
     let (rect, response) = ui.allocate_exact_size(size, sense);
     let tokens = Tokens::of(ui);
     let stroke = Stroke::new(1.0, tokens.outline);
-    let painter = ui.painter();
-    painter.vline(rect.left() - 2.0 * STEP, rect.y_range(), stroke);
-    let (at, align) = (rect.left_center(), Align2::LEFT_CENTER);
-    painter.text(at, align, name, theme::small_font(), tokens.faint_text);
+    let left = rect.left() - 2.0 * STEP;
+    ui.painter().vline(left, rect.y_range(), stroke);
+    let small = theme::small_font();
+    text_in(
+        ui,
+        rect,
+        Align2::LEFT_CENTER,
+        name,
+        small,
+        tokens.faint_text,
+    );
     let is_hot = sense.senses_click() && response.hovered();
     let colour = if is_hot {
         tokens.strong_text
     } else {
         tokens.text
     };
-    painter.text(
-        rect.right_center(),
-        Align2::RIGHT_CENTER,
-        text,
-        font,
-        colour,
-    );
+    text_in(ui, rect, Align2::RIGHT_CENTER, text, font, colour);
     if response.has_focus() {
         focus_ring(ui, rect);
     }
@@ -182,16 +183,32 @@ pub fn swatch(ui: &Ui, rect: Rect, colour: Color32) {
 /// Paint an icon into the middle of a box.
 pub fn icon(ui: &Ui, rect: Rect, icon: Icon, colour: Color32) {
     let (text, font) = (char::from(icon), theme::icon_font(theme::ICON));
-    let centre = rect.center();
-    ui.painter()
-        .text(centre, Align2::CENTER_CENTER, text, font, colour);
+    text_in(ui, rect, Align2::CENTER_CENTER, text, font, colour);
 }
 
 /// Outline the widget that has the keyboard.
 pub fn focus_ring(ui: &Ui, rect: Rect) {
-    let stroke = Stroke::new(1.0, Tokens::of(ui).accent);
+    outline(ui, rect, 1.0, Tokens::of(ui).accent);
+}
+
+/// Outline a box.
+pub fn outline(ui: &Ui, rect: Rect, width: f32, colour: Color32) {
+    let stroke = Stroke::new(width, colour);
     ui.painter()
         .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+}
+
+/// Write a text into a box, where its alignment puts it.
+pub fn text_in(
+    ui: &Ui,
+    rect: Rect,
+    align: Align2,
+    text: impl ToString,
+    font: FontId,
+    colour: Color32,
+) {
+    let at = align.pos_in_rect(&rect);
+    ui.painter().text(at, align, text, font, colour);
 }
 
 /// Allocate a row of a list across all the width, with its background.
@@ -320,9 +337,7 @@ fn text_row(ui: &mut Ui, name: &str, text: &str, font: FontId) -> Response {
     let size = Vec2::new(ui.available_width(), 5.0 * STEP);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     label_in(ui, rect, name, tokens.faint_text);
-    let at = rect.right_center();
-    ui.painter()
-        .text(at, Align2::RIGHT_CENTER, text, font, tokens.text);
+    text_in(ui, rect, Align2::RIGHT_CENTER, text, font, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {text}")));
     response
 }
@@ -386,10 +401,14 @@ pub fn tooltip_at_right(response: &Response, text: &str) {
 
 /// Write a number at the right of a box.
 pub fn number_in(ui: &Ui, rect: Rect, text: &str, colour: Color32) {
-    let at = rect.right_center();
-    let font = theme::number_font();
-    ui.painter()
-        .text(at, Align2::RIGHT_CENTER, text, font, colour);
+    text_in(
+        ui,
+        rect,
+        Align2::RIGHT_CENTER,
+        text,
+        theme::number_font(),
+        colour,
+    );
 }
 
 /// The frame of a dialog.

@@ -16,10 +16,11 @@ const ARROW: f64 = 6.0;
 
 /// The legend of the dots and of the shaded flanks.
 pub fn legend(flank: f64) -> &'static str {
-    if flank > 0.0 {
-        "Dots: discrete curvature; one for each float vertex; arrows: beyond the plot; shaded: beyond the ends"
-    } else {
-        "Dots: discrete curvature; one for each float vertex; arrows: beyond the plot"
+    match flank > 0.0 {
+        true => {
+            "Dots: discrete curvature; one a vertex; arrows: beyond the plot; shaded: beyond the ends"
+        }
+        false => "Dots: discrete curvature; one a vertex; arrows: beyond the plot",
     }
 }
 
