@@ -15,10 +15,10 @@ use crate::editor::view::feature_report::{FeatureMark, append_marks};
 use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
+use crate::editor::view::outlines::Sketch;
 use crate::editor::view::overlay::Overlay;
 use crate::editor::view::scene::{ClampedMark, CurveScene, VertexMark};
 use crate::editor::view::shown::Shown;
-use crate::editor::view::sketch::Sketch;
 use crate::editor::view::view::View;
 use crate::geometry::{End, FloatPolygon};
 

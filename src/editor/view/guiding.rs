@@ -7,10 +7,10 @@ use glam::DVec2;
 
 use crate::editor::jobs::guides::{FeatureOf, VertexOf};
 use crate::editor::view::feature_report::FeatureKind;
-use crate::editor::view::guide_scene::{GuideLabel, GuideScene, LossArrow};
 use crate::editor::view::layers::Layer;
 use crate::editor::view::outline::GAP;
 use crate::editor::view::overlay::Overlay;
+use crate::editor::view::scene::{GuideLabel, GuideScene, LossArrow};
 use crate::editor::view::shown::Shown;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::view::View;

@@ -12,7 +12,6 @@ mod evolute;
 pub(in crate::editor) mod feature_report;
 mod fitting;
 pub(in crate::editor) mod grid;
-mod guide_scene;
 mod guiding;
 mod harmony;
 pub(in crate::editor) mod hit;
@@ -32,7 +31,6 @@ mod sample_chain;
 pub(in crate::editor) mod scene;
 pub(in crate::editor) mod shown;
 pub(in crate::editor) mod sight;
-mod sketch;
 mod sleeve;
 #[allow(clippy::module_inception)]
 mod view;
@@ -44,7 +42,6 @@ pub use curve_outlines::{CurveOutlines, PieceTrend};
 pub use end_marks::EndFitMarks;
 pub use feature_report::{FeatureKind, FeatureMark, FeatureReport, FeatureRow};
 pub use grid::{GroundGrid, grid_steps, ground_grid};
-pub use guide_scene::{GuideLabel, GuideScene, LossArrow};
 pub use hit::REACH;
 pub use layers::{Layer, LayerRow, LayerSample, Layers};
 pub use look::Look;
@@ -53,7 +50,8 @@ pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};
 pub use plot_scene::{PlotBand, PlotKind, PlotScene};
 pub use scene::{
-    ClampedMark, CurveScene, DragReadout, HoverScene, Legs, Mark, MeasuredFigure, Scene, VertexMark,
+    ClampedMark, CurveScene, DragReadout, GuideLabel, GuideScene, HoverScene, Legs, LossArrow,
+    Mark, MeasuredFigure, Scene, VertexMark,
 };
 pub use sight::Sight;
 pub use view::View;

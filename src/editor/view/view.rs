@@ -13,11 +13,10 @@ use crate::editor::jobs::proving::Proving;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::layers::Layers;
-use crate::editor::view::outlines::Outlines;
+use crate::editor::view::outlines::{Outlines, Sketch};
 use crate::editor::view::plot_scene::{MarkSource, PlotKind, PlotScene, PlotSource};
 use crate::editor::view::scene::Scene;
 use crate::editor::view::shown::Shown;
-use crate::editor::view::sketch::Sketch;
 use crate::editor::view::viewport::Viewport;
 
 /// Hold viewport, layers, hovering, analyses with their background work, and the contents of canvas and
