@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec2, DVec3};
 
 use crate::document::Curve;
-use crate::editor::view::osculating_circle::OsculatingCircle;
+use crate::editor::view::osculating_circle::{FARTHEST, OsculatingCircle};
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::end_correction::EndDifference;
 use crate::geometry::{End, rotation_between};
@@ -80,7 +80,7 @@ pub fn marks(
         circle: target
             .filter(|_| chosen)
             .and_then(|target| OsculatingCircle::of(&target, curve, end))
-            .map_or(Vec::new(), |circle| circle.chain(viewport)),
+            .map_or(Vec::new(), |circle| circle.chain_within(viewport, FARTHEST)),
         matched,
         ring: RING * viewport.pixel(),
         terminal: terminal

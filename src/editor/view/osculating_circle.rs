@@ -13,7 +13,7 @@ use crate::geometry::{End, Jet};
 const STEPS: i32 = 128;
 
 /// How far along it from the target a large circle is drawn, in screen points.
-const FARTHEST: f64 = 1200.0;
+pub const FARTHEST: f64 = 1200.0;
 
 /// A circle through a target that touches its direction: in the osculating plane, with the target's
 /// curvature.
@@ -56,11 +56,6 @@ impl OsculatingCircle {
             across: arm.try_normalize()?,
             curvature: 1.0 / arm.length(),
         })
-    }
-
-    /// The circle of a target as it is seen, or the part that is near.
-    pub fn chain(&self, viewport: &Viewport) -> Vec<DVec2> {
-        self.chain_within(viewport, FARTHEST)
     }
 
     /// The circle as it is seen, or the part of it within `reach` screen points where it is large: a line

@@ -230,7 +230,8 @@ impl EndFitTool {
                     direction: jet.tangent(),
                     ..EndTarget::default()
                 };
-                vec![subject.set_target("Set target point", target)]
+                let edits = vec![subject.with_target(target)];
+                vec![Effect::Apply("Set target point".to_owned(), edits)]
             }
             None => match context.hits.curve(place) {
                 Some(hit) if hit.curve != subject.id => vec![Effect::Activate(hit.curve)],

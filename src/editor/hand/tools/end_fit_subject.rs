@@ -2,12 +2,12 @@
 
 use glam::DVec2;
 
-use super::tool::{Context, Effect};
+use super::tool::Context;
 use crate::document::{Curve, CurveId, Document, Edit, EditError, quoted};
 use crate::editor::hand::snapping::Carried;
 use crate::editor::view::end_marks::{ARROW, RING};
 use crate::editor::view::hit::REACH;
-use crate::editor::view::osculating_circle::OsculatingCircle;
+use crate::editor::view::osculating_circle::{FARTHEST, OsculatingCircle};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, figure};
 
@@ -123,7 +123,7 @@ impl<'a> Subject<'a> {
     fn circle(&self, context: &Context) -> Option<Vec<DVec2>> {
         let target = self.target?;
         let circle = OsculatingCircle::of(&target, self.curve, self.end)?;
-        Some(circle.chain(context.viewport))
+        Some(circle.chain_within(context.viewport, FARTHEST))
     }
 
     /// Whether the end lies on its target, as far as the eye can tell.
@@ -184,10 +184,6 @@ impl<'a> Subject<'a> {
             end: self.end,
             target: Some(target),
         }
-    }
-
-    pub(super) fn set_target(&self, label: &str, target: EndTarget) -> Effect {
-        Effect::Apply(label.to_owned(), vec![self.with_target(target)])
     }
 }
 
