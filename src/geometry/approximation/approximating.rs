@@ -4,10 +4,10 @@
 use glam::DVec3;
 
 use super::deviation::MeasuredDeviation;
-use super::equivalence::{LevelComparison, compare_levels, compare_levels_at_samples};
+use super::equivalence::{LevelComparison, Places, compare_levels};
 use super::error::ApproximationError;
 use super::knots::UniformKnots;
-use super::placing::{Corrections, PlacedPolygon, Placing, placed};
+use super::placing::{Corrections, Placing, placed};
 use super::spacing::{Respaced, Spacing};
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::end::End;
@@ -46,8 +46,14 @@ pub struct ApproximationRequest {
 }
 
 impl ApproximationRequest {
-    /// The knots of `count` vertices for a part of a curve.
-    fn knots(&self, part: [f64; 2], count: usize) -> Result<UniformKnots, ApproximationError> {
+    /// The knots of `count` vertices for a part of a curve, or for all of a respaced one.
+    fn knots(
+        &self,
+        part: [f64; 2],
+        respaced: Option<&Respaced>,
+        count: usize,
+    ) -> Result<UniformKnots, ApproximationError> {
+        let part = respaced.map_or(part, |_| [0.0, 1.0]);
         match self.periodic {
             true => UniformKnots::around(self.degree, part, count),
             false => UniformKnots::between(self.degree, part, count),
@@ -139,9 +145,7 @@ pub fn approximate_by_steps(
     request: &ApproximationRequest,
 ) -> Result<Approximated, ApproximationError> {
     let knots = UniformKnots::of_vertices(request.degree, first, step, count)?;
-    Ok(Placed::uniform(curve, &knots, request)?
-        .measured()?
-        .compared())
+    approximated(curve, &knots, None, request, |_| Some(Places::Refined))
 }
 
 /// Approximate the part of a curve between two of its parameters by so many vertices.
@@ -155,19 +159,11 @@ pub fn approximate_between(
     spacing: Spacing,
     request: &ApproximationRequest,
 ) -> Result<Approximated, ApproximationError> {
-    match spacing {
-        Spacing::Parameter => {
-            let knots = request.knots(interval, count)?;
-            Ok(Placed::uniform(curve, &knots, request)?
-                .measured()?
-                .compared())
-        }
-        _ => {
-            let respaced = Respaced::new(curve, interval, spacing)?;
-            let placed = Placed::respaced(curve, &respaced, spacing, count, request)?;
-            Ok(placed.measured()?.compared())
-        }
-    }
+    let respaced = Respaced::by(curve, interval, spacing)?;
+    let knots = request.knots(interval, respaced.as_ref(), count)?;
+    approximated(curve, &knots, respaced.as_ref(), request, |_| {
+        Some(Places::Refined)
+    })
 }
 
 /// Approximate the part of a curve between two of its parameters so that the deviation is at most a
@@ -186,23 +182,19 @@ pub fn approximate_to_tolerance(
     progress: &Progress,
 ) -> Result<Approximated, ApproximationError> {
     // The simplest knots refuse impossible requests at once.
-    request.knots(interval, request.degree + 1)?;
+    request.knots(interval, None, request.degree + 1)?;
     let spacings = goal
         .spacing
         .map_or(SPACINGS.to_vec(), |spacing| vec![spacing]);
-    let respaced = spacings.into_iter().map(|spacing| {
-        let respaced = match spacing {
-            Spacing::Parameter => None,
-            _ => Some(Respaced::new(curve, interval, spacing)?),
-        };
-        Ok((spacing, respaced))
-    });
+    let spacings = spacings.into_iter();
     let search = Search {
         curve,
         interval,
         goal,
         request,
-        spacings: respaced.collect(),
+        spacings: spacings
+            .map(|it| Respaced::by(curve, interval, it))
+            .collect(),
     };
     let found = search.run(progress)?;
     // What is too far away was not compared yet, nor are places of features refined.
@@ -217,7 +209,7 @@ struct Search<'a> {
     goal: &'a Goal,
     request: &'a ApproximationRequest,
     /// A curve that stops somewhere has no arc length to go by; its own parameter is left then.
-    spacings: Vec<Result<(Spacing, Option<Respaced<'a>>), ApproximationError>>,
+    spacings: Vec<Result<Option<Respaced<'a>>, ApproximationError>>,
 }
 
 impl Search<'_> {
@@ -274,7 +266,7 @@ impl Search<'_> {
         let mut best: Option<Result<Approximated, ApproximationError>> = None;
         for spacing in &self.spacings {
             let tried = match spacing {
-                Ok((spacing, respaced)) => self.tried(*spacing, respaced.as_ref(), count),
+                Ok(respaced) => self.tried(respaced.as_ref(), count),
                 Err(error) => Err(error.clone()),
             };
             if tried
@@ -313,172 +305,84 @@ impl Search<'_> {
 
     fn tried(
         &self,
-        spacing: Spacing,
-        respaced: Option<&Respaced<'_>>,
+        respaced: Option<&Respaced>,
         count: usize,
     ) -> Result<Approximated, ApproximationError> {
-        let placed = match respaced {
-            None => {
-                let knots = self.request.knots(self.interval, count)?;
-                Placed::uniform(self.curve, &knots, self.request)?
-            }
-            Some(respaced) => Placed::respaced(self.curve, respaced, spacing, count, self.request)?,
-        };
-        let measured = placed.measured()?;
+        let knots = self.request.knots(self.interval, respaced, count)?;
         // Levels take time: compare them only within the tolerance.
-        if measured.found.distance() <= self.goal.tolerance {
-            Ok(measured.compared_by(compare_levels_at_samples))
-        } else {
-            Ok(measured.found)
-        }
+        let near = |distance: f64| (distance <= self.goal.tolerance).then_some(Places::Samples);
+        approximated(self.curve, &knots, respaced, self.request, near)
     }
 }
 
-/// A polygon, placed but not measured.
-struct Placed<'a> {
-    curve: &'a dyn Differentiable,
-    request: &'a ApproximationRequest,
-    polygon: FloatPolygon,
-    corrections: Option<Corrections>,
-    spacing: Spacing,
+/// Approximate a curve at knots of its own parameter, or of a respaced one. `places` tells by the
+/// distance whether levels are compared, and how closely their features are placed.
+fn approximated(
+    curve: &dyn Differentiable,
+    knots: &UniformKnots,
+    respaced: Option<&Respaced>,
+    request: &ApproximationRequest,
+    places: impl Fn(f64) -> Option<Places>,
+) -> Result<Approximated, ApproximationError> {
+    let (polygon, corrections) = match respaced {
+        Some(respaced) => placed(respaced, knots, request.placing)?,
+        None => placed(curve, knots, request.placing)?,
+    };
+    let interval = respaced.map_or(knots.interval(), Respaced::interval);
+    let reach = match respaced {
+        Some(respaced) if !knots.is_periodic() => knots.reach().map(|v| respaced.parameter(v)),
+        Some(_) => interval,
+        None => knots.reach(),
+    };
+    let polygon = match request.fit_ends {
+        true => with_ends(&polygon, curve, interval)?,
+        false => polygon,
+    };
+    let parameter = |u: f64| {
+        let v = knots.curve_parameter(u);
+        respaced.map_or(v, |respaced| respaced.near(v))
+    };
+    let error = |end: End, t: f64| {
+        let point = polygon.point(end.parameter(&polygon));
+        point.distance(curve.derivatives(t, 0)[0])
+    };
+    let [from, to] = interval;
+    let mut found = Approximated {
+        interval,
+        deviation: MeasuredDeviation::measure(&polygon, curve, &parameter, reach)?,
+        end_errors: (!polygon.is_periodic())
+            .then(|| [error(End::Start, from), error(End::Finish, to)]),
+        levels: Vec::new(),
+        spacing: respaced.map_or(Spacing::Parameter, Respaced::spacing),
+        corrections,
+        polygon,
+    };
+    if let Some(places) = places(found.distance()) {
+        found.levels = compare_levels(&found.polygon, curve, &parameter, request.levels, places);
+    }
+    Ok(found)
+}
+
+/// Bring the ends of a polygon to the points and directions of a curve at the ends of an interval.
+fn with_ends(
+    polygon: &FloatPolygon,
+    curve: &dyn Differentiable,
     interval: [f64; 2],
-    reach: [f64; 2],
-    /// A parameter t near a given u.
-    parameter: Box<dyn Fn(f64) -> f64 + 'a>,
-}
-
-/// A polygon that is measured, but whose levels are not compared.
-struct MeasuredPolygon<'a> {
-    placed: Placed<'a>,
-    found: Approximated,
-}
-
-impl<'a> Placed<'a> {
-    fn uniform(
-        curve: &'a dyn Differentiable,
-        knots: &UniformKnots,
-        request: &'a ApproximationRequest,
-    ) -> Result<Self, ApproximationError> {
-        let knots = *knots;
-        let PlacedPolygon {
-            polygon,
-            corrections,
-        } = placed(curve, &knots, request.placing)?;
-        let placed = Self {
-            curve,
-            request,
-            polygon,
-            corrections,
-            spacing: Spacing::Parameter,
-            interval: knots.interval(),
-            reach: knots.reach(),
-            parameter: Box::new(move |u| knots.curve_parameter(u)),
+) -> Result<FloatPolygon, ApproximationError> {
+    if polygon.is_periodic() {
+        return Err(ApproximationError::NoEnds);
+    }
+    let targets = End::BOTH.into_iter().zip(interval).map(|(end, t)| {
+        let values = curve.derivatives(t, 1);
+        let target = EndTarget {
+            point: values[0],
+            direction: Some(values[1]).filter(|it| *it != DVec3::ZERO),
+            ..EndTarget::default()
         };
-        placed.with_ends()
-    }
-
-    fn respaced(
-        curve: &'a dyn Differentiable,
-        respaced: &'a Respaced<'a>,
-        spacing: Spacing,
-        count: usize,
-        request: &'a ApproximationRequest,
-    ) -> Result<Self, ApproximationError> {
-        let knots = request.knots([0.0, 1.0], count)?;
-        let PlacedPolygon {
-            polygon,
-            corrections,
-        } = placed(respaced, &knots, request.placing)?;
-        let placed = Self {
-            curve,
-            request,
-            polygon,
-            corrections,
-            spacing,
-            interval: respaced.interval(),
-            reach: match knots.is_periodic() {
-                true => respaced.interval(),
-                false => knots.reach().map(|v| respaced.parameter(v)),
-            },
-            parameter: Box::new(move |u| respaced.near(knots.curve_parameter(u))),
-        };
-        placed.with_ends()
-    }
-
-    /// Bring the ends to the curve's points and directions, if requested.
-    fn with_ends(mut self) -> Result<Self, ApproximationError> {
-        if self.request.fit_ends && self.polygon.is_periodic() {
-            return Err(ApproximationError::NoEnds);
-        }
-        if self.request.fit_ends {
-            let ends = [End::Start, End::Finish].into_iter().zip(self.interval);
-            let targets = ends.map(|(end, t)| {
-                let values = self.curve.derivatives(t, 1);
-                let target = EndTarget {
-                    point: values[0],
-                    direction: Some(values[1]).filter(|it| *it != DVec3::ZERO),
-                    ..EndTarget::default()
-                };
-                (end, target)
-            });
-            let targets: Vec<(End, EndTarget)> = targets.collect();
-            let corrected = correct_jointly(
-                &self.polygon,
-                &targets,
-                Disturbance::Differences(3),
-                &[],
-                &Progress::default(),
-            )?;
-            self.polygon = corrected.polygon;
-        }
-        Ok(self)
-    }
-
-    fn measured(self) -> Result<MeasuredPolygon<'a>, ApproximationError> {
-        let polygon = &self.polygon;
-        let deviation =
-            MeasuredDeviation::measure(polygon, self.curve, &*self.parameter, self.reach)?;
-        let ends = [0.0, polygon.segments() as f64].map(|u| polygon.point(u));
-        let error = |index: usize| {
-            let point = self.curve.derivatives(self.interval[index], 0)[0];
-            ends[index].distance(point)
-        };
-        let found = Approximated {
-            polygon: polygon.clone(),
-            interval: self.interval,
-            deviation,
-            end_errors: (!polygon.is_periodic()).then(|| [error(0), error(1)]),
-            levels: Vec::new(),
-            spacing: self.spacing,
-            corrections: self.corrections,
-        };
-        Ok(MeasuredPolygon {
-            placed: self,
-            found,
-        })
-    }
-}
-
-/// Comparison of levels.
-type Compare =
-    fn(&FloatPolygon, &dyn Differentiable, &dyn Fn(f64) -> f64, usize) -> Vec<LevelComparison>;
-
-impl MeasuredPolygon<'_> {
-    fn compared(self) -> Approximated {
-        self.compared_by(compare_levels)
-    }
-
-    fn compared_by(self, compare: Compare) -> Approximated {
-        let Placed {
-            curve,
-            request,
-            polygon,
-            parameter,
-            ..
-        } = self.placed;
-        Approximated {
-            levels: compare(&polygon, curve, &*parameter, request.levels),
-            ..self.found
-        }
-    }
+        (end, target)
+    });
+    let targets: Vec<(End, EndTarget)> = targets.collect();
+    let least = Disturbance::Differences(3);
+    let corrected = correct_jointly(polygon, &targets, least, &[], &Progress::default())?;
+    Ok(corrected.polygon)
 }

@@ -6,6 +6,7 @@ use glam::DVec3;
 use crate::geometry::curvature_levels::{CurvatureLevels, LEVEL_ORDER, LEVELS};
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::polygon_figures::Range;
 use crate::geometry::segment_expansion::SegmentExpansion;
 
 /// Samples a segment at which levels are compared.
@@ -94,6 +95,15 @@ pub type SideBySide = (Option<(f64, LevelFeature)>, Option<(f64, LevelFeature)>)
 /// Halvings of the step between two samples that holds a feature: to the last digit.
 const HALVINGS: usize = 50;
 
+/// Precision of the places of features.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Places {
+    /// Those of samples, which is quicker.
+    Samples,
+    /// Found between the samples.
+    Refined,
+}
+
 /// Compare the first levels of curvature, and in space of torsion, of an approximation with those of
 /// the curve beside it; `parameter` tells which t belongs to a given u. Levels that are not continuous at
 /// the polygon's degree are left out: level m takes 2m derivatives, of the torsion one more.
@@ -102,34 +112,9 @@ const HALVINGS: usize = 50;
 /// 1e-8 of the level's largest value; in levels above the first by no more than 1e-5 of what the first would
 /// make of them if it changed within the curve's length; and where the first level is constant to 1e-5 of
 /// itself, by no more than ripples of that height and of the length of a segment. Between the samples the places of
-/// changes of sign are found by bisection, those of turning points too, by the exact slopes, up to level 3.
-pub fn compare_levels(
-    polygon: &FloatPolygon,
-    curve: &dyn Differentiable,
-    parameter: &dyn Fn(f64) -> f64,
-    levels: usize,
-) -> Vec<LevelComparison> {
-    compared(polygon, curve, parameter, levels, Places::Refined)
-}
-
-/// Compare levels as [`compare_levels`] does; places are those of samples, which is quicker.
-pub(super) fn compare_levels_at_samples(
-    polygon: &FloatPolygon,
-    curve: &dyn Differentiable,
-    parameter: &dyn Fn(f64) -> f64,
-    levels: usize,
-) -> Vec<LevelComparison> {
-    compared(polygon, curve, parameter, levels, Places::Samples)
-}
-
-/// Precision of places.
-#[derive(Clone, Copy, PartialEq)]
-enum Places {
-    Samples,
-    Refined,
-}
-
-fn compared(
+/// changes of sign are found by bisection, those of turning points too, by the exact slopes, up to level 3, unless
+/// the samples' own places are enough.
+pub(super) fn compare_levels(
     polygon: &FloatPolygon,
     curve: &dyn Differentiable,
     parameter: &dyn Fn(f64) -> f64,
@@ -341,9 +326,7 @@ fn refined(
 
 /// Whether values differ by no more than `least`.
 fn is_constant(values: &[f64], least: f64) -> bool {
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    high - low <= least
+    Range::of(values.iter().copied()).is_none_or(|range| range.high - range.low <= least)
 }
 
 /// Let the features round a periodic curve begin where they agree longest with others.

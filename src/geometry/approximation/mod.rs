@@ -15,7 +15,7 @@ pub use approximating::{
     approximate_by_steps, approximate_to_tolerance,
 };
 pub use deviation::MeasuredDeviation;
-pub use equivalence::{LevelComparison, LevelFeature, SideBySide, compare_levels};
+pub use equivalence::{LevelComparison, LevelFeature, SideBySide};
 pub use error::ApproximationError;
 pub use fitting::{FitAsked, FitError, Fitted, fit_points};
 pub use knots::UniformKnots;

@@ -34,13 +34,6 @@ pub struct Corrections {
     pub growth: f64,
 }
 
-/// A float polygon near a curve, with the corrections of quasi-interpolation.
-pub(super) struct PlacedPolygon {
-    pub(super) polygon: FloatPolygon,
-    /// Of quasi-interpolation, from degree 4 on, where there are two corrections or more.
-    pub(super) corrections: Option<Corrections>,
-}
-
 /// Place the vertices of a float polygon near a curve.
 ///
 /// Quasi-interpolation expands the curve at each vertex's own parameter; where the curve is not defined
@@ -55,7 +48,7 @@ pub fn float_polygon(
     knots: &UniformKnots,
     placing: Placing,
 ) -> Result<FloatPolygon, ApproximationError> {
-    Ok(placed(curve, knots, placing)?.polygon)
+    Ok(placed(curve, knots, placing)?.0)
 }
 
 /// Place vertices as [`float_polygon`] does, and watch the corrections.
@@ -63,7 +56,7 @@ pub(super) fn placed(
     curve: &dyn Differentiable,
     knots: &UniformKnots,
     placing: Placing,
-) -> Result<PlacedPolygon, ApproximationError> {
+) -> Result<(FloatPolygon, Option<Corrections>), ApproximationError> {
     let mut corrections: Option<Corrections> = None;
     let vertices: Result<Vec<DVec3>, ApproximationError> = match placing {
         Placing::OnCurve => (0..knots.count())
@@ -91,10 +84,7 @@ pub(super) fn placed(
         }
     };
     let polygon = FloatPolygon::new(knots.degree(), vertices?, None, knots.is_periodic())?;
-    Ok(PlacedPolygon {
-        polygon,
-        corrections,
-    })
+    Ok((polygon, corrections))
 }
 
 /// The last correction over the first one, if there are two or more.

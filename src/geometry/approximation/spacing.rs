@@ -31,6 +31,7 @@ pub enum Spacing {
 
 /// A curve by a parameter v in \[0, 1\] that grows evenly with arc length, or with arc length and turning.
 pub struct Respaced<'a> {
+    spacing: Spacing,
     curve: &'a dyn Differentiable,
     /// The length r; 0 where arc length alone counts.
     radius: f64,
@@ -39,6 +40,25 @@ pub struct Respaced<'a> {
 }
 
 impl<'a> Respaced<'a> {
+    /// Respace a curve as [`Respaced::new`] does; `None` for its own parameter.
+    ///
+    /// # Errors
+    /// As [`Respaced::new`].
+    pub(super) fn by(
+        curve: &'a dyn Differentiable,
+        interval: [f64; 2],
+        spacing: Spacing,
+    ) -> Result<Option<Self>, ApproximationError> {
+        let respaced = spacing != Spacing::Parameter;
+        respaced
+            .then(|| Self::new(curve, interval, spacing))
+            .transpose()
+    }
+
+    pub(super) fn spacing(&self) -> Spacing {
+        self.spacing
+    }
+
     /// Measure a curve between two of its parameters.
     ///
     /// # Errors
@@ -49,6 +69,7 @@ impl<'a> Respaced<'a> {
         spacing: Spacing,
     ) -> Result<Self, ApproximationError> {
         let mut respaced = Self {
+            spacing,
             curve,
             radius: 0.0,
             table: Vec::new(),

@@ -50,11 +50,47 @@ const LONGER: [f64; 4] = [1.0, 1.1, 1.3, 1.7];
 /// The shares that the first and the last of three clothoids have of the length.
 const OUTER: [f64; 5] = [0.3, 0.2, 0.4, 0.15, 0.1];
 
-/// Hold segments that follow each other on the chord from (0, 0) to (1, 0).
+/// A segment up to a similarity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum PlaneSegment {
+    /// A log-aesthetic one without an inflection.
+    LogAesthetic(LogAesthetic),
+    /// A clothoid.
+    Clothoid(Clothoid),
+}
+
+impl PlaneSegment {
+    fn chord(&self) -> DVec2 {
+        match self {
+            Self::LogAesthetic(segment) => segment.chord(),
+            Self::Clothoid(clothoid) => clothoid.chord(),
+        }
+    }
+
+    fn turning(&self) -> f64 {
+        match self {
+            Self::LogAesthetic(segment) => segment.turning,
+            Self::Clothoid(clothoid) => clothoid.turning(),
+        }
+    }
+
+    /// The curvatures at the ends, over a chord of 1.
+    pub(super) fn curvatures(&self) -> [f64; 2] {
+        match self {
+            Self::LogAesthetic(segment) => segment.curvatures(),
+            Self::Clothoid(clothoid) => {
+                let chord = clothoid.chord().length();
+                clothoid.curvatures.map(|it| it * chord)
+            }
+        }
+    }
+}
+
+/// Segments that follow each other on the chord from (0, 0) to (1, 0).
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Chain<S> {
+pub(super) struct Chain {
     /// The segments.
-    pub(super) segments: Vec<S>,
+    pub(super) segments: Vec<PlaneSegment>,
     /// Their ends: one point more than segments.
     pub(super) points: Vec<DVec2>,
 }
@@ -65,33 +101,31 @@ pub(super) fn log_aesthetic_pair(
     task: &Task,
     alpha: Option<f64>,
     curvatures: [f64; 2],
-) -> Option<Chain<LogAesthetic>> {
-    let pair = Pair { task, curvatures };
+) -> Option<Chain> {
+    let chain = |alphas, done, grown| pair(task, curvatures, alphas, done, grown);
     let share = |share: f64| (LEAST_SHARE..=1.0 - LEAST_SHARE).contains(&share);
     if let Some(alpha) = alpha {
-        let of = |[done, grown]: [f64; 2]| pair.chain([alpha; 2], done, grown);
+        let of = |[done, grown]: [f64; 2]| chain([alpha; 2], done, grown);
         let fits = |[done, grown]: [f64; 2]| share(done) && share(grown);
-        return solved(of, fits, &pairs(SHARES, SHARES));
+        return newton(of, fits, &pairs(SHARES, SHARES)).map(of);
     }
-    let spread = |chain: &Chain<LogAesthetic>| {
-        let first = chain.segments.first();
-        first.map_or(f64::INFINITY, |first| (first.alpha + 1.0).abs())
-    };
     // What bends the graph of ln κ is e times its growth.
     let unit = (curvatures[0] / curvatures[1]).ln().abs().recip();
     let found = GROWN.into_iter().filter_map(|grown| {
         let of = |[done, spread]: [f64; 2]| {
             let spread = unit * spread;
-            pair.chain([-1.0 + spread, -1.0 - spread], done, grown)
+            chain([-1.0 + spread, -1.0 - spread], done, grown)
         };
         let fits = |[done, spread]: [f64; 2]| share(done) && spread.abs() <= MOST_SPREAD;
-        solved(of, fits, &pairs(SHARES, SPREADS))
+        let found = newton(of, fits, &pairs(SHARES, SPREADS))?;
+        Some((found[1].abs(), of(found)))
     });
-    found.min_by(|a, b| spread(a).total_cmp(&spread(b)))
+    let least = found.min_by(|a, b| a.0.total_cmp(&b.0));
+    least.map(|(_, chain)| chain)
 }
 
 /// Find three clothoids for two curvatures. `None` if none with monotone curvature are found.
-pub(super) fn clothoids(task: &Task, curvatures: [f64; 2]) -> Option<Chain<Clothoid>> {
+pub(super) fn clothoids(task: &Task, curvatures: [f64; 2]) -> Option<Chain> {
     let [first, last] = curvatures;
     let half = 0.5 * task.turning();
     let arc = if half == 0.0 {
@@ -110,17 +144,14 @@ pub(super) fn clothoids(task: &Task, curvatures: [f64; 2]) -> Option<Chain<Cloth
             let lengths = [outer, 1.0 - 2.0 * outer, outer].map(|share| share * length);
             let segments = bends.windows(2).zip(lengths).map(|(bends, length)| {
                 let curvatures = [bends[0] * length, bends[1] * length];
-                (Clothoid { curvatures }, length)
+                (PlaneSegment::Clothoid(Clothoid { curvatures }), length)
             });
-            chain(task, segments.collect(), Clothoid::chord, Clothoid::turning)
+            chain(task, segments.collect())
         };
         let fits = |[length, _]: [f64; 2]| length > 0.0;
         let changes = SHARES.map(|share| share * (last - first));
-        let found = newton(
-            |unknowns| missing(&of(unknowns)),
-            fits,
-            &pairs(LONGER.map(|longer| longer * arc), changes),
-        )?;
+        let lengths = LONGER.map(|longer| longer * arc);
+        let found = newton(of, fits, &pairs(lengths, changes))?;
         let bends = bends(found);
         let steps = bends.windows(2).map(|pair| pair[1] - pair[0]);
         let monotone = steps.into_iter().all(|step| step * (last - first) >= 0.0);
@@ -128,56 +159,46 @@ pub(super) fn clothoids(task: &Task, curvatures: [f64; 2]) -> Option<Chain<Cloth
     })
 }
 
-struct Pair<'a> {
-    task: &'a Task,
-    curvatures: [f64; 2],
-}
-
-impl Pair<'_> {
-    /// The pair of which the first does some share of the turning, and of the growth of ln ρ.
-    fn chain(&self, alphas: [f64; 2], done: f64, grown: f64) -> Chain<LogAesthetic> {
-        let [first, last] = self.curvatures;
-        let growth = (first / last).ln();
-        let [one, other] = alphas;
-        let segment = |alpha, share_of_growth: f64, share_of_turning: f64| LogAesthetic {
+/// The pair of which the first does some share of the turning, and of the growth of ln ρ.
+fn pair(
+    task: &Task,
+    [first, last]: [f64; 2],
+    [one, other]: [f64; 2],
+    done: f64,
+    grown: f64,
+) -> Chain {
+    let growth = (first / last).ln();
+    let segment = |alpha, share_of_growth: f64, share_of_turning: f64| {
+        PlaneSegment::LogAesthetic(LogAesthetic {
             alpha,
             growth: share_of_growth * growth,
-            turning: share_of_turning * self.task.turning(),
-        };
-        let one = segment(one, grown, done);
-        let other = segment(other, 1.0 - grown, 1.0 - done);
-        let radius = first.recip();
-        let segments = vec![(one, radius), (other, radius * one.growth.exp())];
-        chain(self.task, segments, LogAesthetic::chord, |it| it.turning)
-    }
+            turning: share_of_turning * task.turning(),
+        })
+    };
+    let radius = first.recip();
+    let segments = vec![
+        (segment(one, grown, done), radius),
+        (
+            segment(other, 1.0 - grown, 1.0 - done),
+            radius * (grown * growth).exp(),
+        ),
+    ];
+    chain(task, segments)
 }
 
 /// Put segments, each with the scale that it has, one after the other.
-fn chain<S: Copy>(
-    task: &Task,
-    segments: Vec<(S, f64)>,
-    chord: impl Fn(&S) -> DVec2,
-    turning: impl Fn(&S) -> f64,
-) -> Chain<S> {
+fn chain(task: &Task, segments: Vec<(PlaneSegment, f64)>) -> Chain {
     let mut points = vec![DVec2::ZERO];
     let (mut point, mut direction) = (DVec2::ZERO, -task.angles[0]);
     for (segment, scale) in &segments {
-        point += *scale * DVec2::from_angle(direction).rotate(chord(segment));
-        direction += turning(segment);
+        point += *scale * DVec2::from_angle(direction).rotate(segment.chord());
+        direction += segment.turning();
         points.push(point);
     }
     Chain {
         segments: segments.into_iter().map(|(segment, _)| segment).collect(),
         points,
     }
-}
-
-/// Difference of the segments' end from the end of the chord.
-fn missing<S>(chain: &Chain<S>) -> DVec2 {
-    chain
-        .points
-        .last()
-        .map_or(DVec2::NAN, |end| *end - DVec2::X)
 }
 
 fn pairs<const ONE: usize, const OTHER: usize>(
@@ -189,35 +210,32 @@ fn pairs<const ONE: usize, const OTHER: usize>(
     pairs.collect()
 }
 
-fn solved(
-    of: impl Fn([f64; 2]) -> Chain<LogAesthetic>,
-    fits: impl Fn([f64; 2]) -> bool,
-    beginnings: &[[f64; 2]],
-) -> Option<Chain<LogAesthetic>> {
-    let unknowns = newton(|unknowns| missing(&of(unknowns)), fits, beginnings)?;
-    Some(of(unknowns))
-}
-
-/// Find unknowns that fit at which a function is 0, by Newton's method with halved steps.
+/// Find unknowns that fit at which the segments end where the chord does, by Newton's method with
+/// halved steps.
 fn newton(
-    function: impl Fn([f64; 2]) -> DVec2,
+    of: impl Fn([f64; 2]) -> Chain,
     fits: impl Fn([f64; 2]) -> bool,
     beginnings: &[[f64; 2]],
 ) -> Option<[f64; 2]> {
+    let missing = |at: DVec2| {
+        let chain = of(at.to_array());
+        let end = chain.points.last();
+        end.map_or(DVec2::NAN, |end| *end - DVec2::X)
+    };
     beginnings.iter().find_map(|begin| {
         let mut at = DVec2::from(*begin);
-        let mut value = function(at.to_array());
+        let mut value = missing(at);
         for _ in 0..STEPS {
             let slope = |axis: DVec2| {
                 let [ahead, behind] =
-                    [1.0, -1.0].map(|side| function((at + side * DIFFERENCE * axis).to_array()));
+                    [1.0, -1.0].map(|side| missing(at + side * DIFFERENCE * axis));
                 (ahead - behind) / (2.0 * DIFFERENCE)
             };
             let step = DMat2::from_cols(slope(DVec2::X), slope(DVec2::Y)).inverse() * value;
             let shorter = (0..HALVINGS).map(|halvings| at - step * 0.5_f64.powi(halvings as i32));
             let better = shorter
                 .filter(|at| fits(at.to_array()))
-                .map(|at| (at, function(at.to_array())))
+                .map(|at| (at, missing(at)))
                 .find(|(_, next)| next.length() < value.length());
             match better {
                 Some(next) => (at, value) = next,

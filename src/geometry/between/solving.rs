@@ -7,9 +7,8 @@ use super::ends::{SAME, Task};
 use super::error::BetweenError;
 use super::existence::check_existence;
 use super::log_aesthetic::LogAesthetic;
-use super::pair::{Chain, clothoids, log_aesthetic_pair};
+use super::pair::{Chain, PlaneSegment, clothoids, log_aesthetic_pair};
 use super::parts::{Part, Parts};
-use super::superspiral::{NoSuperspiral, Superspiral};
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::references::{
     AnalyticForm, Placement, ReferenceCurve, ReferenceForm, clothoid, log_aesthetic,
@@ -29,7 +28,7 @@ const LOGARITHMIC: f64 = 1.0;
 const ENDS: [&str; 2] = ["start", "end"];
 
 /// The ends of the chord.
-const CHORD: [DVec2; 2] = [DVec2::ZERO, DVec2::X];
+pub(super) const CHORD: [DVec2; 2] = [DVec2::ZERO, DVec2::X];
 
 /// Find the log-aesthetic segment, or the pair of them.
 pub(super) fn log_aesthetic_parts(task: &Task, alpha: Option<f64>) -> Result<Parts, BetweenError> {
@@ -45,88 +44,34 @@ pub(super) fn log_aesthetic_parts(task: &Task, alpha: Option<f64>) -> Result<Par
         (None, [None, Some(curvature)]) if convex => with_curvature(task, 1, curvature),
         (alpha, _) => single(task, alpha.unwrap_or(CLOTHOID)),
     };
-    let single = single.and_then(|it| it.check(task).map(|()| it));
+    let single = single.and_then(|segment| {
+        check_curvatures(task, segment.curvatures().map(|it| task.curvature(it)))?;
+        Ok(segment)
+    });
     match (single, task.curvatures) {
-        (Ok(segment), _) => segment.parts(task),
-        (Err(_), [Some(first), Some(last)]) => pair(task, alpha, [first, last]),
+        (Ok(segment), _) => Ok(Parts::new(vec![part(task, segment, CHORD)?])),
+        (Err(_), [Some(first), Some(last)]) => several(task, alpha, [first, last]),
         (Err(error), _) => Err(error),
     }
 }
 
-/// Find the superspiral segment.
-pub(super) fn superspiral_parts(task: &Task, values: [f64; 3]) -> Result<Parts, BetweenError> {
-    let [a, b, c] = values;
-    if !(a > 0.0 && b > 0.0 && c > b) {
-        return Err(BetweenError::NotMonotone { values });
-    }
-    let kind = || format!("the superspiral {a}, {b}, {c}");
-    if !task.is_convex() {
-        return Err(inflection(task, kind()));
-    }
-    // Its curvature rises, so its chord leans towards the start; the other way round it falls.
-    let reversed = task.lean() > 0.0;
-    let found = Superspiral::leaning(values, task.turning(), task.lean().abs());
-    let Superspiral { form, interval } = found.map_err(|error| match error {
-        NoSuperspiral::Spiral(error) => error.into(),
-        NoSuperspiral::Leans(leans) => {
-            let side = if reversed { 1.0 } else { -1.0 };
-            let mut reach = leans.map(|lean| 0.5 * task.turning() + side * lean);
-            reach.sort_by(f64::total_cmp);
-            out_of_reach(task, kind(), reach)
-        }
-    })?;
-    let over = false;
-    let part = placed(task, form, interval, CHORD, Turned { over, reversed })?;
-    let parts = Parts::new(vec![part]);
-    check_curvatures(task, [0.0, parts.end()].map(|t| parts.curvature(t)))?;
-    Ok(parts)
-}
-
-/// One segment.
-enum Single {
-    LogAesthetic(LogAesthetic),
-    Clothoid(Clothoid),
-}
-
-impl Single {
-    /// Refuse if it does not have the requested curvatures.
-    fn check(&self, task: &Task) -> Result<(), BetweenError> {
-        let found = match self {
-            Self::LogAesthetic(segment) => segment.curvatures(),
-            Self::Clothoid(clothoid) => {
-                let chord = clothoid.chord().length();
-                clothoid.curvatures.map(|it| it * chord)
-            }
-        };
-        check_curvatures(task, found.map(|it| task.curvature(it)))
-    }
-
-    fn parts(self, task: &Task) -> Result<Parts, BetweenError> {
-        let part = match self {
-            Self::LogAesthetic(segment) => log_aesthetic_part(task, segment, CHORD),
-            Self::Clothoid(clothoid) => clothoid_part(task, clothoid, CHORD),
-        };
-        Ok(Parts::new(vec![part?]))
-    }
-}
-
 /// Find the segment of an α.
-fn single(task: &Task, alpha: f64) -> Result<Single, BetweenError> {
+fn single(task: &Task, alpha: f64) -> Result<PlaneSegment, BetweenError> {
     if alpha == CLOTHOID {
         let clothoid = Clothoid::between(task.angles).ok_or(BetweenError::NoClothoid)?;
-        return Ok(Single::Clothoid(clothoid));
+        return Ok(PlaneSegment::Clothoid(clothoid));
     }
     let found = LogAesthetic::leaning(alpha, task.turning(), task.lean());
-    found.map(Single::LogAesthetic).map_err(|most| {
+    found.map(PlaneSegment::LogAesthetic).map_err(|most| {
         let half = 0.5 * task.turning();
         out_of_reach(task, name(alpha), [half - most, half + most])
     })
 }
 
 /// Find the segment of any α with a curvature at one end.
-fn with_curvature(task: &Task, end: usize, curvature: f64) -> Result<Single, BetweenError> {
+fn with_curvature(task: &Task, end: usize, curvature: f64) -> Result<PlaneSegment, BetweenError> {
     match LogAesthetic::with_curvature(task.turning(), task.lean(), end, curvature) {
-        Ok(segment) => Ok(Single::LogAesthetic(segment)),
+        Ok(segment) => Ok(PlaneSegment::LogAesthetic(segment)),
         Err(Some(range)) => {
             let mut range = range.map(|it| task.curvature(it));
             range.sort_by(f64::total_cmp);
@@ -141,42 +86,26 @@ fn with_curvature(task: &Task, end: usize, curvature: f64) -> Result<Single, Bet
 }
 
 /// Find two segments for two curvatures.
-fn pair(task: &Task, alpha: Option<f64>, curvatures: [f64; 2]) -> Result<Parts, BetweenError> {
+fn several(task: &Task, alpha: Option<f64>, curvatures: [f64; 2]) -> Result<Parts, BetweenError> {
     check_existence(task)?;
-    if task.is_convex()
-        && let Some(Chain { segments, points }) = log_aesthetic_pair(task, alpha, curvatures)
-    {
-        return chained(task, segments, &points, log_aesthetic_part);
-    }
-    if alpha.is_none_or(|alpha| alpha == CLOTHOID)
-        && let Some(Chain { segments, points }) = clothoids(task, curvatures)
-    {
-        return chained(task, segments, &points, clothoid_part);
-    }
-    let alpha = match alpha {
-        Some(alpha) => format!("α = {alpha}"),
-        None => "any α".to_owned(),
+    let pair = match task.is_convex() {
+        true => log_aesthetic_pair(task, alpha, curvatures),
+        false => None,
     };
-    Err(BetweenError::NoPair { alpha })
-}
-
-/// Place segments that follow each other.
-fn chained<S>(
-    task: &Task,
-    segments: Vec<S>,
-    points: &[DVec2],
-    part: impl Fn(&Task, S, [DVec2; 2]) -> Result<Part, BetweenError>,
-) -> Result<Parts, BetweenError> {
+    let may_be_clothoids = alpha.is_none_or(|alpha| alpha == CLOTHOID);
+    let clothoids = || may_be_clothoids.then(|| clothoids(task, curvatures));
+    let Some(Chain { segments, points }) = pair.or_else(|| clothoids().flatten()) else {
+        let alpha = alpha.map_or("any α".to_owned(), |alpha| format!("α = {alpha}"));
+        return Err(BetweenError::NoPair { alpha });
+    };
     let spans = points.windows(2).map(|span| [span[0], span[1]]);
     let parts = segments.into_iter().zip(spans);
-    let parts: Result<_, _> = parts
-        .map(|(segment, span)| part(task, segment, span))
-        .collect();
-    Ok(Parts::new(parts?))
+    let parts = parts.map(|(segment, span)| part(task, segment, span));
+    Ok(Parts::new(parts.collect::<Result<_, _>>()?))
 }
 
 /// Refuse ends that ask for an inflection: by a curvature that turns the other way, if the directions do not.
-fn inflection(task: &Task, kind: String) -> BetweenError {
+pub(super) fn inflection(task: &Task, kind: String) -> BetweenError {
     let turned = |curvature: &Option<f64>| curvature.is_some_and(|curvature| curvature < 0.0);
     let place = task.curvatures.iter().position(turned);
     let bends = task.angles.into_iter().all(|angle| angle > 0.0);
@@ -189,7 +118,7 @@ fn inflection(task: &Task, kind: String) -> BetweenError {
     }
 }
 
-fn out_of_reach(task: &Task, kind: String, reach: [f64; 2]) -> BetweenError {
+pub(super) fn out_of_reach(task: &Task, kind: String, reach: [f64; 2]) -> BetweenError {
     BetweenError::OutOfReach {
         kind,
         turning: task.turning(),
@@ -203,7 +132,7 @@ fn name(alpha: f64) -> String {
 }
 
 /// Refuse if curvatures differ from the requested ones.
-fn check_curvatures(task: &Task, found: [f64; 2]) -> Result<(), BetweenError> {
+pub(super) fn check_curvatures(task: &Task, found: [f64; 2]) -> Result<(), BetweenError> {
     let asked = task.curvatures.map(|it| it.map(|it| task.curvature(it)));
     for ((end, found), asked) in ENDS.into_iter().zip(found).zip(asked) {
         if let Some(asked) = asked.filter(|asked| !((found - asked).abs() <= SAME * asked.abs())) {
@@ -216,6 +145,14 @@ fn check_curvatures(task: &Task, found: [f64; 2]) -> Result<(), BetweenError> {
     Ok(())
 }
 
+/// Place a segment between two points on the chord from (0, 0) to (1, 0).
+fn part(task: &Task, segment: PlaneSegment, wanted: [DVec2; 2]) -> Result<Part, BetweenError> {
+    match segment {
+        PlaneSegment::LogAesthetic(segment) => log_aesthetic_part(task, segment, wanted),
+        PlaneSegment::Clothoid(clothoid) => clothoid_part(task, clothoid, wanted),
+    }
+}
+
 fn log_aesthetic_part(
     task: &Task,
     segment: LogAesthetic,
@@ -223,7 +160,7 @@ fn log_aesthetic_part(
 ) -> Result<Part, BetweenError> {
     let [lambda, length] = segment.lambda_and_length();
     let form = AnalyticForm::new(&log_aesthetic::KIND, vec![segment.alpha, lambda])?;
-    placed(task, form, [0.0, length], wanted, Turned::default())
+    placed(task, form, [0.0, length], wanted, false)
 }
 
 /// Place a clothoid: far from its inflection as a log-aesthetic curve, whose numbers stay moderate
@@ -248,48 +185,23 @@ fn clothoid_part(
     let squared = (last - first).abs().recip();
     let form = AnalyticForm::new(&clothoid::KIND, vec![squared.sqrt()])?;
     let interval = [first, last].map(|curvature| side * curvature * squared);
-    placed(
-        task,
-        form,
-        interval,
-        wanted,
-        Turned {
-            over,
-            reversed: false,
-        },
-    )
+    placed(task, form, interval, wanted, over)
 }
 
-/// In which way a curve is turned to be a segment.
-#[derive(Clone, Copy, Default)]
-struct Turned {
-    /// Its left is the segment's right.
-    over: bool,
-    /// It is passed through from its end to its start, and turned over, so that it bends as before.
-    reversed: bool,
-}
-
-/// Place an interval of a curve between two points on the chord from (0, 0) to (1, 0).
+/// Place an interval of a curve between two points on the chord from (0, 0) to (1, 0). `over`: its left
+/// is the segment's right.
 fn placed(
     task: &Task,
     form: AnalyticForm,
     interval: [f64; 2],
     wanted: [DVec2; 2],
-    turned: Turned,
+    over: bool,
 ) -> Result<Part, BetweenError> {
-    let Turned { over, reversed } = turned;
-    let plain = ReferenceCurve::new(
-        ReferenceForm::Analytic(form),
-        interval,
-        Placement::default(),
-    )?;
-    let mut own = interval.map(|t| plain.derivatives(t, 0)[0].truncate());
-    if reversed {
-        own.reverse();
-    }
-    let placement = task.placement(own, wanted, over ^ reversed)?;
+    let form = ReferenceForm::Analytic(form);
+    let plain = ReferenceCurve::new(form, interval, Placement::default())?;
+    let own = interval.map(|t| plain.derivatives(t, 0)[0].truncate());
     Ok(Part {
-        curve: plain.placed(placement),
-        reversed,
+        curve: plain.placed(task.placement(own, wanted, over)?),
+        reversed: false,
     })
 }

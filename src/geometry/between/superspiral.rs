@@ -7,12 +7,13 @@
 
 use glam::DVec2;
 
-use super::ends::angle;
+use super::ends::{Task, angle};
+use super::error::BetweenError;
+use super::parts::{Part, Parts};
 use super::root::root;
+use super::solving::{CHORD, check_curvatures, inflection, out_of_reach};
 use crate::geometry::differentiable::Differentiable;
-use crate::geometry::references::{
-    AnalyticForm, ReferenceCurve, ReferenceError, ReferenceForm, superspiral,
-};
+use crate::geometry::references::{AnalyticForm, ReferenceCurve, ReferenceForm, superspiral};
 
 /// Where a segment may begin, the direction angle of the spiral: earlier it has hardly a finite radius, later
 /// it is all but a circular arc.
@@ -21,51 +22,43 @@ const BEGINS: [f64; 2] = [-0.9, 60.0];
 /// Precision of the start; correcting the ends does the rest.
 const EXACT: f64 = 1e-14;
 
-/// A segment of a superspiral.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Superspiral {
-    /// The spiral.
-    pub(super) form: AnalyticForm,
-    /// The direction angles between which it runs.
-    pub(super) interval: [f64; 2],
-}
-
-/// Why there is no segment of a superspiral.
-pub(super) enum NoSuperspiral {
-    /// Its radius of curvature is not monotone, or its numbers are out of range.
-    Spiral(ReferenceError),
-    /// The least and the largest lean of its segments.
-    Leans([f64; 2]),
-}
-
-impl Superspiral {
-    /// Find the segment of the superspiral a, b, c that turns by an angle, and whose chord leans by an
-    /// angle from the direction half way towards that at the start.
-    ///
-    /// # Errors
-    /// [`NoSuperspiral`].
-    pub(super) fn leaning(
-        values: [f64; 3],
-        turning: f64,
-        lean: f64,
-    ) -> Result<Self, NoSuperspiral> {
-        let form = AnalyticForm::new(&superspiral::KIND, values.to_vec());
-        let form = form.map_err(NoSuperspiral::Spiral)?;
-        let spiral = ReferenceCurve::of(ReferenceForm::Analytic(form.clone()));
-        let spiral = spiral.map_err(NoSuperspiral::Spiral)?;
-        let leans = |begin: f64| {
-            let [from, to] = [begin, begin + turning].map(|angle| spiral.derivatives(angle, 0)[0]);
-            let half_way = DVec2::from_angle(begin + 0.5 * turning);
-            angle((to - from).truncate(), half_way)
-        };
-        let [most, least] = BEGINS.map(leans);
-        if !(least <= lean && lean <= most) {
-            return Err(NoSuperspiral::Leans([least, most]));
-        }
-        let begin = root(BEGINS, EXACT, |begin| leans(begin) - lean);
-        Ok(Self {
-            form,
-            interval: [begin, begin + turning],
-        })
+/// Find the superspiral segment. Where the curvature must fall the spiral, whose curvature rises, is
+/// passed through from its end to its start, and turned over, so that it bends as before.
+pub(super) fn superspiral_parts(task: &Task, values: [f64; 3]) -> Result<Parts, BetweenError> {
+    let [a, b, c] = values;
+    if !(a > 0.0 && b > 0.0 && c > b) {
+        return Err(BetweenError::NotMonotone { values });
     }
+    let kind = format!("the superspiral {a}, {b}, {c}");
+    if !task.is_convex() {
+        return Err(inflection(task, kind));
+    }
+    let form = AnalyticForm::new(&superspiral::KIND, values.to_vec())?;
+    let spiral = ReferenceCurve::of(ReferenceForm::Analytic(form))?;
+    let point = |angle: f64| spiral.derivatives(angle, 0)[0].truncate();
+    let turning = task.turning();
+    // How far the chord leans from the direction half way towards that at the start.
+    let leans = |begin: f64| {
+        let half_way = DVec2::from_angle(begin + 0.5 * turning);
+        angle(point(begin + turning) - point(begin), half_way)
+    };
+    let (lean, reversed) = (task.lean().abs(), task.lean() > 0.0);
+    let [most, least] = BEGINS.map(leans);
+    if !(least <= lean && lean <= most) {
+        let side = if reversed { 1.0 } else { -1.0 };
+        let mut reach = [least, most].map(|lean| 0.5 * turning + side * lean);
+        reach.sort_by(f64::total_cmp);
+        return Err(out_of_reach(task, kind, reach));
+    }
+    let begin = root(BEGINS, EXACT, |begin| leans(begin) - lean);
+    let interval = [begin, begin + turning];
+    let mut own = interval.map(point);
+    if reversed {
+        own.reverse();
+    }
+    let placement = task.placement(own, CHORD, reversed)?;
+    let curve = spiral.over(interval)?.placed(placement);
+    let parts = Parts::new(vec![Part { curve, reversed }]);
+    check_curvatures(task, [0.0, parts.end()].map(|t| parts.curvature(t)))?;
+    Ok(parts)
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::amplification::{Amplification, double_factorial};
 use super::end_conversion::ConvertedEnds;
-use super::exact_vertices::{check_weight, converted_error, weight_loss};
+use super::exact_vertices::{check_weight, converted_float, weight_loss};
 use super::knots::Direction;
 use crate::geometry::control_polygon::ControlPolygon;
 use crate::geometry::error::PolygonError;
@@ -69,19 +69,19 @@ impl ClampedPolygon {
     /// (by more than 2⁻¹⁵⁰ of what it is a difference of), [`PolygonError::Overflow`] if it has a
     /// coordinate beyond the range of numbers.
     pub fn to_float(&self) -> Result<FloatPolygon, PolygonError> {
-        let to = PolygonKind::Float;
         let norm = double_factorial(self.degree);
         let ends = ConvertedEnds::<3>::new(self, Direction::Unclamp, norm);
         let converted: Vec<_> = ends.rounded().collect();
         if self.is_rational() {
             let loses = weight_loss(ends.largest_weight() * self.amplification().norm);
             let mut weights = converted.iter();
-            weights.try_for_each(|(index, _, weight)| check_weight(to, *index, *weight, loses))?;
+            weights.try_for_each(|(index, _, weight)| {
+                check_weight(PolygonKind::Float, *index, *weight, loses)
+            })?;
         }
         let mut polygon = self.0.clone();
         polygon.replace(converted);
-        FloatPolygon::new(polygon.degree, polygon.vertices, polygon.weights, false)
-            .map_err(|error| converted_error(to, error))
+        converted_float(polygon.degree, (polygon.vertices, polygon.weights), false)
     }
 
     /// Compute how much errors in the vertices grow in [`ClampedPolygon::to_float`].

@@ -4,7 +4,7 @@ use super::amplification::Amplification;
 use super::bezier_polygon::BezierPolygon;
 use super::clamped_polygon::ClampedPolygon;
 use super::exact_vertices::{
-    ExactVertices, RoundedVertices, check_weight, converted_error, weight_loss,
+    ExactVertices, RoundedVertices, check_weight, converted_error, converted_float, weight_loss,
 };
 use super::knots::unclamp;
 use crate::geometry::bezier_matrix::{blossom_row, chain, dot, float_to_bezier, middle_segment};
@@ -99,9 +99,15 @@ impl ExactPolygon {
     /// more than 2⁻¹⁵⁰ of what it is a difference of), [`PolygonError::Overflow`] if it has a
     /// coordinate beyond the range of numbers.
     pub fn to_float(&self) -> Result<FloatPolygon, PolygonError> {
-        let (vertices, weights) = self.float_form().rounded()?;
-        FloatPolygon::new(self.degree, vertices, weights, false)
-            .map_err(|error| converted_error(PolygonKind::Float, error))
+        converted_float(self.degree, self.float_form().rounded()?, false)
+    }
+
+    /// Round the vertices of a float polygon to a periodic one.
+    ///
+    /// # Errors
+    /// As [`ExactPolygon::to_float`].
+    pub(in crate::geometry) fn to_periodic_float(&self) -> Result<FloatPolygon, PolygonError> {
+        converted_float(self.degree, self.rounded()?, true)
     }
 
     /// Round to the Bézier polygons, converting if these are not they.

@@ -7,6 +7,7 @@ use glam::{DVec3, DVec4};
 use crate::geometry::control_polygon::ControlPolygon;
 use crate::geometry::error::PolygonError;
 use crate::geometry::expansion::Expansion;
+use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::polygon_kind::PolygonKind;
 
 /// What K = 3 parts may lose of the numbers that entered a vertex, in their units: a weight
@@ -212,6 +213,19 @@ pub(in crate::geometry) fn check_weight(
     } else {
         Err(PolygonError::WeightLost { to, index, weight })
     }
+}
+
+/// Make the float polygon of converted vertices.
+///
+/// # Errors
+/// As [`FloatPolygon::new`], with [`PolygonError::Overflow`] for the vertices.
+pub(in crate::geometry) fn converted_float(
+    degree: usize,
+    (vertices, weights): RoundedVertices,
+    periodic: bool,
+) -> Result<FloatPolygon, PolygonError> {
+    FloatPolygon::new(degree, vertices, weights, periodic)
+        .map_err(|error| converted_error(PolygonKind::Float, error))
 }
 
 /// Name the vertex that a converted polygon cannot hold, in place of the constructor's complaint

@@ -1,6 +1,6 @@
 //! Longer curves: the end segment's polynomial continued.
 
-use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
+use super::exact_vertices::{ExactVertices, check_weight, converted_float, weight_loss};
 use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
 use crate::geometry::expansion::Expansion;
@@ -48,8 +48,7 @@ impl FloatPolygon {
         if let (Some(weights), Some(new_weights)) = (&mut weights, new_weights) {
             weights.extend(new_weights);
         }
-        Self::new(self.degree(), vertices, weights, false)
-            .map_err(|error| converted_error(PolygonKind::Float, error))
+        converted_float(self.degree(), (vertices, weights), false)
     }
 
     fn added_vertices(&self, segments: usize) -> Result<ExactVertices<3>, PolygonError> {

@@ -10,7 +10,7 @@ use super::bezier_polygon::BezierPolygon;
 use super::chain_deviation::{chain_deviation, reach};
 use super::chain_fit::ChainFit;
 use super::clamped_polygon::ClampedPolygon;
-use super::closing::{check_periodic, periodic, worst_difference};
+use super::closing::{check_periodic, worst_difference};
 use super::exact_polygon::ExactPolygon;
 use super::exact_vertices::ExactVertices;
 use crate::geometry::error::PolygonError;
@@ -90,7 +90,7 @@ impl BezierPolygon {
             SMOOTHNESS_TOLERANCE
         };
         target.checked(nearest, tolerance, |polygon| {
-            let (index, distance) = self.worst_vertex(polygon);
+            let (index, distance) = worst_difference(self, &Self::from_float(polygon));
             if segments == 1 {
                 PolygonError::DigitsLost { index, distance }
             } else {
@@ -109,17 +109,9 @@ impl BezierPolygon {
     pub fn nearest_periodic_float(&self) -> Result<NearestFloat, PolygonError> {
         check_periodic(self.degree(), self.segments())?;
         let given = ExactPolygon::from_bezier(self);
-        let exact = periodic(&given.periodic_blossoms());
-        let worst = |polygon: &FloatPolygon| self.worst_vertex(polygon);
+        let exact = given.periodic_blossoms().to_periodic_float();
+        let worst = |polygon: &FloatPolygon| worst_difference(self, &Self::from_float(polygon));
         nearest_periodic(given, exact, PolygonKind::Bezier, worst)
-    }
-
-    fn worst_vertex(&self, polygon: &FloatPolygon) -> (usize, f64) {
-        let found = Self::from_float(polygon);
-        worst_difference(
-            (self.vertices(), self.weights()),
-            (found.vertices(), found.weights()),
-        )
     }
 }
 
@@ -136,7 +128,7 @@ impl ClampedPolygon {
         let target = Target::new(ExactPolygon::from_clamped(&ends), false);
         let nearest = target.nearest(ends.to_float(), Some(&ends))?;
         let nearest = target.checked(nearest, DIGITS_TOLERANCE, |polygon| {
-            let (index, distance) = ends.worst_vertex(polygon);
+            let (index, distance) = worst_difference(&ends, &Self::from_float(polygon));
             let left_out = self.vertices().len() - ends.vertices().len();
             let in_last_half = index >= ends.vertices().len() / 2;
             let index = index + if in_last_half { left_out } else { 0 };
@@ -156,17 +148,9 @@ impl ClampedPolygon {
     pub fn nearest_periodic_float(&self) -> Result<NearestFloat, PolygonError> {
         check_periodic(self.degree(), self.segments())?;
         let given = ExactPolygon::from_clamped(self);
-        let exact = periodic(&given.float_form().folded());
-        let worst = |polygon: &FloatPolygon| self.worst_vertex(polygon);
+        let exact = given.float_form().folded().to_periodic_float();
+        let worst = |polygon: &FloatPolygon| worst_difference(self, &Self::from_float(polygon));
         nearest_periodic(given, exact, PolygonKind::Clamped, worst)
-    }
-
-    fn worst_vertex(&self, polygon: &FloatPolygon) -> (usize, f64) {
-        let found = Self::from_float(polygon);
-        worst_difference(
-            (self.vertices(), self.weights()),
-            (found.vertices(), found.weights()),
-        )
     }
 
     /// Leave out the middle: ends convert alike where 2n vertices of each are there.

@@ -11,7 +11,7 @@
 //! smooth, and has an error of order h^{m+1}. Where ξ is a knot of the curve the mean of both
 //! sides is taken; beyond the ends their polynomials are continued.
 
-use super::exact_vertices::{ExactVertices, check_weight, converted_error, weight_loss};
+use super::exact_vertices::{ExactVertices, check_weight, converted_float, weight_loss};
 use crate::geometry::basis::uniform_basis_derivative;
 use crate::geometry::bezier_matrix::dot;
 use crate::geometry::error::PolygonError;
@@ -44,7 +44,6 @@ pub(in crate::geometry) fn quasi_interpolated(
     curve: &FloatPolygon,
     knots: &NewKnots,
 ) -> Result<FloatPolygon, PolygonError> {
-    let to = PolygonKind::Float;
     let rows = rows(curve, knots);
     let given = ExactVertices::<3>::of(curve);
     let vertices = given.map(|axis| {
@@ -53,18 +52,12 @@ pub(in crate::geometry) fn quasi_interpolated(
         rows.map(|(first, row)| dot(row, &around[*first..]))
             .collect()
     });
-    let (vertices, weights) = vertices.all_rounded();
-    for (index, weight) in weights.iter().flatten().enumerate() {
-        let norm = rows.get(index).map_or(0.0, |(_, row)| magnitude(row));
-        check_weight(
-            to,
-            index,
-            *weight,
-            weight_loss(norm * given.largest_weight()),
-        )?;
+    let rounded = vertices.all_rounded();
+    for ((index, weight), (_, row)) in rounded.1.iter().flatten().enumerate().zip(&rows) {
+        let loses = weight_loss(magnitude(row) * given.largest_weight());
+        check_weight(PolygonKind::Float, index, *weight, loses)?;
     }
-    FloatPolygon::new(knots.degree, vertices, weights, knots.periodic)
-        .map_err(|error| converted_error(to, error))
+    converted_float(knots.degree, rounded, knots.periodic)
 }
 
 /// For each new vertex the first old vertex that acts, and the row of weights from there on.

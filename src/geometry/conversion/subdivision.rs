@@ -1,10 +1,9 @@
 //! Uniform subdivision: the same curve by twice as many segments.
 
-use super::exact_vertices::{ExactVertices, converted_error};
+use super::exact_vertices::{ExactVertices, converted_float};
 use crate::geometry::error::PolygonError;
 use crate::geometry::expansion::Expansion;
 use crate::geometry::float_polygon::FloatPolygon;
-use crate::geometry::polygon_kind::PolygonKind;
 use crate::geometry::tables::binomials;
 
 impl FloatPolygon {
@@ -27,9 +26,7 @@ impl FloatPolygon {
                 .map(|index| refined(&mask, degree, axis, index))
                 .collect()
         });
-        let (vertices, weights) = vertices.all_rounded();
-        Self::new(degree, vertices, weights, self.is_periodic())
-            .map_err(|error| converted_error(PolygonKind::Float, error))
+        converted_float(degree, vertices.all_rounded(), self.is_periodic())
     }
 }
 

@@ -10,11 +10,7 @@ const MOST_INTERVALS: usize = 20_000;
 
 /// An expression in t. Where something can be wrong with a part, it has the column of it.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::geometry) struct Expression(pub(super) Node);
-
-/// A part of an expression.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Node {
+pub(in crate::geometry) enum Expression {
     /// A number.
     Number(f64),
     /// The parameter t.
@@ -31,7 +27,7 @@ pub(super) enum Node {
 
 /// Operator between two expressions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Operator {
+pub(in crate::geometry) enum Operator {
     Plus,
     Minus,
     Times,
@@ -40,33 +36,13 @@ pub(super) enum Operator {
 }
 
 impl Expression {
-    /// Whether t occurs in it.
-    pub(in crate::geometry) fn depends_on_parameter(&self) -> bool {
-        self.0.depends_on_parameter()
-    }
-
-    /// Expand it about t: angles are in radians.
-    pub(in crate::geometry) fn series(&self, t: f64, order: usize) -> PowerSeries {
-        self.0.series(t, order)
-    }
-
-    /// The value of an expression without t.
-    pub(in crate::geometry) fn value(&self) -> f64 {
-        self.0.value()
-    }
-
-    /// Whether an expression without t divides by zero.
-    pub(in crate::geometry) fn divides_by_zero(&self) -> bool {
-        self.0.divides_by_zero()
-    }
-
     /// Find the first place of an interval where it has no value or no slope: intervals are halved until it
     /// has both all over them.
     pub(in crate::geometry) fn first_gap(&self, [from, to]: [f64; 2]) -> Option<f64> {
         let mut left = vec![[from, to]];
         for _ in 0..MOST_INTERVALS {
             let [low, high] = left.pop()?;
-            let range = self.0.range(ValueRange::new(low, high));
+            let range = self.range(ValueRange::new(low, high));
             let Err(gap) = range.and_then(ValueRange::of_coordinate) else {
                 continue;
             };
@@ -86,20 +62,9 @@ impl Expression {
         let series = self.series(t, 1);
         series.coefficients().iter().all(|it| it.is_finite())
     }
-}
 
-/// Of two neighbouring numbers the one with fewer digits.
-fn rounder(low: f64, high: f64) -> f64 {
-    let digits = |number: f64| format!("{number}").len();
-    if digits(high) < digits(low) {
-        high
-    } else {
-        low
-    }
-}
-
-impl Node {
-    fn depends_on_parameter(&self) -> bool {
+    /// Whether t occurs in it.
+    pub(in crate::geometry) fn depends_on_parameter(&self) -> bool {
         match self {
             Self::Number(_) => false,
             Self::Parameter => true,
@@ -109,7 +74,8 @@ impl Node {
         }
     }
 
-    fn series(&self, t: f64, order: usize) -> PowerSeries {
+    /// Expand it about t: angles are in radians.
+    pub(in crate::geometry) fn series(&self, t: f64, order: usize) -> PowerSeries {
         match self {
             Self::Number(number) => PowerSeries::constant(*number, order),
             Self::Parameter => PowerSeries::parameter(t, order),
@@ -141,11 +107,13 @@ impl Node {
         }
     }
 
-    fn value(&self) -> f64 {
+    /// The value of an expression without t.
+    pub(in crate::geometry) fn value(&self) -> f64 {
         self.series(0.0, 0).value()
     }
 
-    fn divides_by_zero(&self) -> bool {
+    /// Whether an expression without t divides by zero.
+    pub(in crate::geometry) fn divides_by_zero(&self) -> bool {
         match self {
             Self::Number(_) | Self::Parameter => false,
             Self::Negative(inner) | Self::InUnit(_, _, inner) => inner.divides_by_zero(),
@@ -192,5 +160,15 @@ impl Node {
                 }
             }
         }
+    }
+}
+
+/// Of two neighbouring numbers the one with fewer digits.
+fn rounder(low: f64, high: f64) -> f64 {
+    let digits = |number: f64| format!("{number}").len();
+    if digits(high) < digits(low) {
+        high
+    } else {
+        low
     }
 }

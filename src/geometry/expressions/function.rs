@@ -6,7 +6,7 @@ use crate::geometry::power_series::PowerSeries;
 
 /// A function that expressions can name.
 #[derive(Clone, Copy)]
-pub(super) struct Function {
+pub(in crate::geometry) struct Function {
     /// Its spelling.
     pub(super) name: &'static str,
     /// The dimensions of its arguments and its value.

@@ -1,7 +1,7 @@
 //! Values of expressions whose numbers have units.
 
 use super::error::{ExpressionError, ExpressionMistake};
-use super::expression::{Node, Operator};
+use super::expression::{Expression, Operator};
 use super::function::{Function, FunctionKind};
 use super::unit::{LengthUnit, Unit};
 use crate::geometry::power_series::PowerSeries;
@@ -83,18 +83,20 @@ impl Conventions {
     ///
     /// # Errors
     /// [`ExpressionMistake`] where units do not go together.
-    pub(super) fn measure(self, node: &Node) -> MeasureResult {
+    pub(super) fn measure(self, node: &Expression) -> MeasureResult {
         match node {
-            Node::Number(number) => Ok(Measure::plain(*number)),
+            Expression::Number(number) => Ok(Measure::plain(*number)),
             // Numbers are read without t.
-            Node::Parameter => Ok(Measure::plain(f64::NAN)),
-            Node::Negative(inner) => self.measure(inner).map(|inner| Measure {
+            Expression::Parameter => Ok(Measure::plain(f64::NAN)),
+            Expression::Negative(inner) => self.measure(inner).map(|inner| Measure {
                 number: -inner.number,
                 ..inner
             }),
-            Node::InUnit(unit, column, inner) => self.in_unit(*unit, *column, inner),
-            Node::Call(function, column, arguments) => self.call(*function, *column, arguments),
-            Node::Combined(operator, column, operands) => {
+            Expression::InUnit(unit, column, inner) => self.in_unit(*unit, *column, inner),
+            Expression::Call(function, column, arguments) => {
+                self.call(*function, *column, arguments)
+            }
+            Expression::Combined(operator, column, operands) => {
                 let [left, right] = &**operands;
                 if *operator == Operator::Power {
                     return self.power(left, *column, right);
@@ -109,7 +111,7 @@ impl Conventions {
         }
     }
 
-    fn in_unit(self, unit: Unit, column: usize, inner: &Node) -> MeasureResult {
+    fn in_unit(self, unit: Unit, column: usize, inner: &Expression) -> MeasureResult {
         let inner = self.measure(inner)?;
         let (number, dimension) = match unit {
             Unit::Length(length) => {
@@ -150,7 +152,7 @@ impl Conventions {
         Ok(Measure { number, dimension })
     }
 
-    fn power(self, base: &Node, column: usize, exponent: &Node) -> MeasureResult {
+    fn power(self, base: &Expression, column: usize, exponent: &Expression) -> MeasureResult {
         let (base, exponent) = (self.measure(base)?, self.measure(exponent)?);
         needed(column, exponent, Dimension::PLAIN)?;
         let power = PowerSeries::constant(base.number, 0).power(exponent.number);
@@ -160,7 +162,7 @@ impl Conventions {
         })
     }
 
-    fn call(self, function: Function, column: usize, arguments: &[Node]) -> MeasureResult {
+    fn call(self, function: Function, column: usize, arguments: &[Expression]) -> MeasureResult {
         let inside = match function.kind {
             FunctionKind::Same => self,
             _ => Self {

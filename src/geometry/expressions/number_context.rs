@@ -110,7 +110,7 @@ impl NumberContext {
             unit: self.unit.or(any_unit),
             degrees: quantity == Quantity::Angle,
         };
-        let found = conventions.measure(&expression.0)?;
+        let found = conventions.measure(&expression)?;
         let needed = match quantity {
             Quantity::Number => Dimension::PLAIN,
             Quantity::Length => Dimension::LENGTH,

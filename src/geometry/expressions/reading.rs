@@ -6,7 +6,7 @@ use pest::iterators::{Pair, Pairs};
 use pest::pratt_parser::{Assoc, Op, PrattParser};
 
 use super::error::{ExpressionError, ExpressionMistake, NoNumber};
-use super::expression::{Expression, Node, Operator};
+use super::expression::{Expression, Operator};
 use super::function::{Function, function_names};
 use super::unit::Unit;
 
@@ -109,8 +109,8 @@ impl<'a> Reader<'a> {
         })?;
         let mut expressions = pairs.filter(|pair| pair.as_rule() == Rule::expression);
         match expressions.next() {
-            Some(expression) => self.tree(expression.into_inner()).map(Expression),
-            None => Ok(Expression(Node::Number(0.0))),
+            Some(expression) => self.tree(expression.into_inner()),
+            None => Ok(Expression::Number(0.0)),
         }
     }
 
@@ -130,12 +130,12 @@ impl<'a> Reader<'a> {
     }
 
     /// Make a tree of an expression's parts.
-    fn tree(&self, parts: Pairs<'_, Rule>) -> Result<Node, ExpressionMistake> {
+    fn tree(&self, parts: Pairs<'_, Rule>) -> Result<Expression, ExpressionMistake> {
         let mut reading = self
             .priorities
             .map_primary(|part| self.operand(part))
             .map_prefix(|sign, inner| match sign.as_rule() {
-                Rule::negative => Ok(Node::Negative(Box::new(inner?))),
+                Rule::negative => Ok(Expression::Negative(Box::new(inner?))),
                 _ => inner,
             })
             .map_postfix(|inner, unit| self.in_unit(inner?, &unit))
@@ -148,12 +148,12 @@ impl<'a> Reader<'a> {
                     _ => Operator::Power,
                 };
                 let operands = Box::new([left?, right?]);
-                Ok(Node::Combined(operator, self.column(&sign), operands))
+                Ok(Expression::Combined(operator, self.column(&sign), operands))
             });
         reading.parse(parts)
     }
 
-    fn operand(&self, part: Pair<'_, Rule>) -> Result<Node, ExpressionMistake> {
+    fn operand(&self, part: Pair<'_, Rule>) -> Result<Expression, ExpressionMistake> {
         let word = part.as_str();
         match part.as_rule() {
             Rule::number => {
@@ -161,27 +161,27 @@ impl<'a> Reader<'a> {
                 let text = word.to_owned();
                 let reason = NoNumber::TooLarge;
                 let refused = || self.refused(&part, ExpressionError::NotANumber { text, reason });
-                number.map(Node::Number).ok_or_else(refused)
+                number.map(Expression::Number).ok_or_else(refused)
             }
-            Rule::name if word == PARAMETER && self.sort.is_formula => Ok(Node::Parameter),
+            Rule::name if word == PARAMETER && self.sort.is_formula => Ok(Expression::Parameter),
             Rule::name => {
                 let known = NUMBERS.iter().find(|(name, _)| *name == word);
                 let (_, number) =
                     known.ok_or_else(|| self.refused(&part, self.unknown_name(word)))?;
-                Ok(Node::Number(*number))
+                Ok(Expression::Number(*number))
             }
             Rule::call => self.call(part),
             _ => self.tree(part.into_inner()),
         }
     }
 
-    fn call(&self, part: Pair<'_, Rule>) -> Result<Node, ExpressionMistake> {
+    fn call(&self, part: Pair<'_, Rule>) -> Result<Expression, ExpressionMistake> {
         let mut parts = part.clone().into_inner();
         let name = parts.next().map_or("", |name| name.as_str());
         let function = Function::find(name);
         let function = function.ok_or_else(|| self.refused(&part, self.unknown_name(name)))?;
         let arguments = parts.map(|argument| self.tree(argument.into_inner()));
-        let arguments = arguments.collect::<Result<Vec<Node>, _>>()?;
+        let arguments = arguments.collect::<Result<Vec<Expression>, _>>()?;
         if arguments.len() != function.arguments() {
             let error = ExpressionError::ArgumentCount {
                 name: function.name,
@@ -193,10 +193,14 @@ impl<'a> Reader<'a> {
             };
             return Err(self.refused(&part, error));
         }
-        Ok(Node::Call(function, self.column(&part), arguments))
+        Ok(Expression::Call(function, self.column(&part), arguments))
     }
 
-    fn in_unit(&self, inner: Node, part: &Pair<'_, Rule>) -> Result<Node, ExpressionMistake> {
+    fn in_unit(
+        &self,
+        inner: Expression,
+        part: &Pair<'_, Rule>,
+    ) -> Result<Expression, ExpressionMistake> {
         let known = Unit::written(part.as_str())
             .filter(|unit| !(self.sort.is_formula && matches!(unit, Unit::Length(_))));
         let unit = known.ok_or_else(|| {
@@ -206,7 +210,7 @@ impl<'a> Reader<'a> {
             };
             self.refused(part, error)
         })?;
-        Ok(Node::InUnit(unit, self.column(part), Box::new(inner)))
+        Ok(Expression::InUnit(unit, self.column(part), Box::new(inner)))
     }
 
     fn unknown_name(&self, name: &str) -> ExpressionError {

@@ -55,7 +55,7 @@ impl LengthUnit {
 
 /// A unit that can stand after a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Unit {
+pub(in crate::geometry) enum Unit {
     Length(LengthUnit),
     Degree,
     Radian,

@@ -137,7 +137,7 @@ impl Fairness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::harmony::log_aesthetic::LogAesthetic;
+    use crate::geometry::harmony::tests::LogAesthetic;
 
     #[test]
     fn bending_energy_and_variation_of_a_log_aesthetic_curve_are_those_of_their_formulas() {

@@ -87,7 +87,7 @@ impl GraphMoments {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::harmony::log_aesthetic::LogAesthetic;
+    use crate::geometry::harmony::tests::LogAesthetic;
 
     #[test]
     fn the_graph_of_a_log_aesthetic_curve_is_straight_and_its_slope_is_alpha() {

@@ -7,11 +7,11 @@ mod figures;
 mod flow;
 mod graph_moments;
 mod isogeometry;
-#[cfg(test)]
-mod log_aesthetic;
 mod logarithmic_pieces;
 mod measurement;
 mod regularity;
+#[cfg(test)]
+mod tests;
 
 pub use events::Event;
 pub use fairness::{Fairness, SegmentFairness};

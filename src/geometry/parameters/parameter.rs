@@ -12,3 +12,15 @@ pub struct Parameter<K> {
     /// Values that it takes.
     pub kind: K,
 }
+
+impl<K: Copy> Parameter<K> {
+    /// Describe a parameter by its name, label, help text and values.
+    pub const fn new(name: &'static str, label: &'static str, help: &'static str, kind: K) -> Self {
+        Self {
+            name,
+            label,
+            help,
+            kind,
+        }
+    }
+}

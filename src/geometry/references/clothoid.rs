@@ -1,7 +1,7 @@
 //! The clothoid, or Euler spiral.
 
 use super::integral::{MOST_TURNING, unit_speed};
-use super::kind::ReferenceKind;
+use super::kind::{Coordinates, ReferenceKind};
 use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
@@ -10,16 +10,15 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "clothoid",
     label: "Clothoid",
     help: "Curvature s/a² at arc length s: direction angle s²/(2a²)",
-    parameters: &[Parameter {
-        name: "a",
-        label: "Clothoid parameter",
-        help: "The length a: the radius of curvature is a at arc length a",
-        kind: Number::size(1.0),
-    }],
-    planar: true,
+    parameters: &[Parameter::new(
+        "a",
+        "Clothoid parameter",
+        "The length a: the radius of curvature is a at arc length a",
+        Number::size(1.0),
+    )],
     interval: |values| [0.0, 2.0 * values[0]],
     domain,
-    series,
+    coordinates: Coordinates::Planar(coordinates),
 };
 
 /// The direction turns by as much as can be computed.
@@ -28,9 +27,9 @@ fn domain(values: &[f64]) -> [f64; 2] {
     [-end, end]
 }
 
-fn series(values: &[f64], s: f64, order: usize) -> [PowerSeries; 3] {
+fn coordinates(values: &[f64], s: &PowerSeries) -> [PowerSeries; 2] {
     let angle = |s: f64| 0.5 * (s / values[0]).powi(2);
-    let relative = PowerSeries::parameter(s, order).times(1.0 / values[0]);
+    let relative = s.clone().times(1.0 / values[0]);
     let expansion = (&relative * &relative).times(0.5);
-    unit_speed((KIND.name, values), s, order, angle, &expansion)
+    unit_speed((KIND.name, values), s, angle, &expansion)
 }

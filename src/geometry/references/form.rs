@@ -63,7 +63,7 @@ impl AnalyticForm {
         if !(from..=to).contains(&t) {
             return vec![DVec3::NAN; order + 1];
         }
-        PowerSeries::derivatives((self.kind.series)(&self.values, t, order).each_ref())
+        PowerSeries::derivatives(self.kind.series(&self.values, t, order).each_ref())
     }
 }
 
@@ -89,7 +89,7 @@ impl ReferenceForm {
     /// Whether it lies in the plane z = 0.
     pub fn is_planar(&self) -> bool {
         match self {
-            Self::Analytic(form) => form.kind.planar,
+            Self::Analytic(form) => form.kind.is_planar(),
             Self::Formula(formula) => formula.texts()[2].is_none(),
             Self::Points(points) => points.is_planar(),
         }

@@ -130,20 +130,18 @@ fn span(from: f64, sign: f64, angle: &impl Fn(f64) -> f64) -> f64 {
 /// θ(0) = 0. `expansion` is the series of θ about t, to the order of the curve or one less.
 pub(super) fn unit_speed(
     identity: Identity<'_>,
-    t: f64,
-    order: usize,
+    t: &PowerSeries,
     angle: impl Fn(f64) -> f64,
     expansion: &PowerSeries,
-) -> [PowerSeries; 3] {
+) -> [PowerSeries; 2] {
     let direction = |s: f64| {
         let (sine, cosine) = angle(s).sin_cos();
         [cosine, sine]
     };
-    let [x, y] = integrated(identity, t, &angle, direction);
+    let [x, y] = integrated(identity, t.value(), &angle, direction);
     let (sine, cosine) = expansion.sin_cos();
     [
-        cosine.antiderivative(x, order),
-        sine.antiderivative(y, order),
-        PowerSeries::constant(0.0, order),
+        cosine.antiderivative(x, t.order()),
+        sine.antiderivative(y, t.order()),
     ]
 }

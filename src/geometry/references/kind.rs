@@ -16,14 +16,22 @@ pub struct ReferenceKind {
     pub help: &'static str,
     /// The numbers that shape it, in the order in which they are offered.
     pub parameters: &'static [Parameter<Number>],
-    /// Whether it lies in the plane z = 0.
-    pub planar: bool,
     /// The interval of its parameter t that is drawn if none is given, for checked values.
     pub(super) interval: fn(&[f64]) -> [f64; 2],
     /// The domain of t, for checked values.
     pub(super) domain: fn(&[f64]) -> [f64; 2],
-    /// Expand the coordinates about t, to the given order; values are checked.
-    pub(super) series: fn(&[f64], f64, usize) -> [PowerSeries; 3],
+    /// Its coordinates.
+    pub(super) coordinates: Coordinates,
+}
+
+/// Coordinates of a kind, expanded for checked values and the series of t, to the order of that
+/// series.
+#[derive(Debug)]
+pub(super) enum Coordinates {
+    /// x and y of a curve in the plane z = 0.
+    Planar(fn(&[f64], &PowerSeries) -> [PowerSeries; 2]),
+    /// x, y and z.
+    Spatial(fn(&[f64], &PowerSeries) -> [PowerSeries; 3]),
 }
 
 /// Every t.
@@ -48,6 +56,23 @@ impl ReferenceKind {
     /// The values of all parameters if none is given.
     pub fn defaults(&self) -> Vec<f64> {
         self.parameters.iter().map(|it| it.kind.default).collect()
+    }
+
+    /// Whether it lies in the plane z = 0.
+    pub fn is_planar(&self) -> bool {
+        matches!(self.coordinates, Coordinates::Planar(_))
+    }
+
+    /// Expand the coordinates about t, for checked values.
+    pub(super) fn series(&self, values: &[f64], t: f64, order: usize) -> [PowerSeries; 3] {
+        let t = PowerSeries::parameter(t, order);
+        match self.coordinates {
+            Coordinates::Planar(of) => {
+                let [x, y] = of(values, &t);
+                [x, y, PowerSeries::constant(0.0, order)]
+            }
+            Coordinates::Spatial(of) => of(values, &t),
+        }
     }
 
     /// The interval of t that is drawn if nothing is given.

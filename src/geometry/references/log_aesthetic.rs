@@ -8,7 +8,7 @@
 //!   w = Λ s ψ(Λαs),   θ = (w/Λ) φ((α − 1) w),   and back:   w = Λ θ ψ(Λ(α − 1)θ),   s = (w/Λ) φ(αw).
 
 use super::integral::{MOST_TURNING, unit_speed};
-use super::kind::ReferenceKind;
+use super::kind::{Coordinates, ReferenceKind};
 use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
@@ -18,23 +18,22 @@ pub static KIND: ReferenceKind = ReferenceKind {
     label: "Log-aesthetic curve",
     help: "Radius of curvature (1 + Λαs)^(1/α) at arc length s: α = −1 is a clothoid, 0 Nielsen's spiral, 1 a logarithmic spiral, 2 a circle involute",
     parameters: &[
-        Parameter {
-            name: "alpha",
-            label: "α",
-            help: "The slope α of the logarithmic curvature graph",
-            kind: Number::any(-1.0),
-        },
-        Parameter {
-            name: "lambda",
-            label: "Λ",
-            help: "How fast Λ the radius of curvature, 1 at s = 0, changes there",
-            kind: Number::any(0.5),
-        },
+        Parameter::new(
+            "alpha",
+            "α",
+            "The slope α of the logarithmic curvature graph",
+            Number::any(-1.0),
+        ),
+        Parameter::new(
+            "lambda",
+            "Λ",
+            "How fast Λ the radius of curvature, 1 at s = 0, changes there",
+            Number::any(0.5),
+        ),
     ],
-    planar: true,
     interval,
     domain,
-    series,
+    coordinates: Coordinates::Planar(coordinates),
 };
 
 /// From s = 0 to 1, or less if the curve ends before: nine tenths of the way there.
@@ -62,18 +61,19 @@ fn domain(values: &[f64]) -> [f64; 2] {
     [end(-MOST_TURNING), end(MOST_TURNING)]
 }
 
-fn series(values: &[f64], s: f64, order: usize) -> [PowerSeries; 3] {
+fn coordinates(values: &[f64], s: &PowerSeries) -> [PowerSeries; 2] {
+    let (at, order) = (s.value(), s.order());
     let [alpha, lambda] = [values[0], values[1]];
     let direction = |s: f64| angle(alpha, lambda, s);
     // With B = 1 + Λαs, κ′ B = −Λ κ.
-    let base = 1.0 + lambda * alpha * s;
-    let start = (-lambda * s * relative_logarithm(lambda * alpha * s)).exp();
+    let base = 1.0 + lambda * alpha * at;
+    let start = (-lambda * at * relative_logarithm(lambda * alpha * at)).exp();
     let curvature = PowerSeries::by_recurrence(start, order, |curvature, k| {
         let k = k as f64;
         -lambda * (1.0 + alpha * k) * curvature[k as usize] / ((k + 1.0) * base)
     });
-    let expansion = curvature.antiderivative(direction(s), order);
-    unit_speed((KIND.name, values), s, order, direction, &expansion)
+    let expansion = curvature.antiderivative(direction(at), order);
+    unit_speed((KIND.name, values), s, direction, &expansion)
 }
 
 /// The direction angle θ at arc length s; not a number beyond the singularity.
@@ -93,7 +93,10 @@ fn length(alpha: f64, lambda: f64, angle: f64) -> f64 {
 pub(in crate::geometry) fn lambda_and_length(alpha: f64, growth: f64, turning: f64) -> [f64; 2] {
     let turned = relative_exponential((alpha - 1.0) * growth);
     let lambda = growth * turned / turning;
-    [lambda, turning * relative_exponential(alpha * growth) / turned]
+    [
+        lambda,
+        turning * relative_exponential(alpha * growth) / turned,
+    ]
 }
 
 /// ψ(x) = ln(1 + x)/x.

@@ -3,16 +3,22 @@
 //!
 //! A kind is a value ([`ReferenceKind`]): its words, its parameters described once, and one function
 //! that expands the curve in a power series. Fields and command line read that description. A new
-//! kind is a file here that exports a `pub static KIND`, and a line in the table below.
+//! kind is a row in [`formulas`], or a file of its own if its points are integrals, and a line in
+//! [`KINDS`].
 
+pub(super) mod clothoid;
 mod curve;
 mod error;
 mod form;
 mod formula;
+pub mod formulas;
 mod integral;
 mod kind;
+pub(super) mod log_aesthetic;
+mod nielsen_spiral;
 mod placement;
 mod point_list;
+pub(super) mod superspiral;
 mod text;
 
 pub use curve::ReferenceCurve;
@@ -23,33 +29,24 @@ pub use kind::ReferenceKind;
 pub use placement::Placement;
 pub use point_list::PointList;
 
-/// Declare the modules of kinds, and list their `KIND`s in this order.
-macro_rules! table {
-    ($($module:ident,)*) => {
-        $(pub(super) mod $module;)*
-
-        /// Every kind, in the order in which they are offered.
-        pub static KINDS: &[&ReferenceKind] = &[$(&$module::KIND,)*];
-    };
-}
-
-table! {
-    circle,
-    ellipse,
-    parabola,
-    catenary,
-    circle_involute,
-    logarithmic_spiral,
-    archimedean_spiral,
-    clothoid,
-    nielsen_spiral,
-    log_aesthetic,
-    superspiral,
-    helix,
-    cubic_helix,
-    conical_helix,
-    conical_spiral,
-}
+/// Every kind, in the order in which they are offered.
+pub static KINDS: &[&ReferenceKind] = &[
+    &formulas::CIRCLE,
+    &formulas::ELLIPSE,
+    &formulas::PARABOLA,
+    &formulas::CATENARY,
+    &formulas::CIRCLE_INVOLUTE,
+    &formulas::LOGARITHMIC_SPIRAL,
+    &formulas::ARCHIMEDEAN_SPIRAL,
+    &clothoid::KIND,
+    &nielsen_spiral::KIND,
+    &log_aesthetic::KIND,
+    &superspiral::KIND,
+    &formulas::HELIX,
+    &formulas::CUBIC_HELIX,
+    &formulas::CONICAL_HELIX,
+    &formulas::CONICAL_SPIRAL,
+];
 
 /// Find a kind by its name.
 pub fn find(name: &str) -> Option<&'static ReferenceKind> {

@@ -1,7 +1,7 @@
 //! Nielsen's spiral.
 
 use super::integral::{MOST_TURNING, integrated};
-use super::kind::ReferenceKind;
+use super::kind::{Coordinates, ReferenceKind};
 use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
@@ -13,34 +13,29 @@ pub static KIND: ReferenceKind = ReferenceKind {
     name: "nielsen-spiral",
     label: "Nielsen’s spiral",
     help: "a (Ci t, Si t), cosine and sine integral: direction angle t, curvature t/a",
-    parameters: &[Parameter {
-        name: "a",
-        label: "Size a",
-        help: "The radius of curvature at t = 1",
-        kind: Number::size(1.0),
-    }],
-    planar: true,
+    parameters: &[Parameter::new(
+        "a",
+        "Size a",
+        "The radius of curvature at t = 1",
+        Number::size(1.0),
+    )],
     interval: |_| [0.5, 10.0],
     domain: |_| [1e-30, MOST_TURNING],
-    series,
+    coordinates: Coordinates::Planar(coordinates),
 };
 
 /// Ci t = γ + ln t + ∫ (cos u − 1)/u du, Si t = ∫ sin u/u du, from 0 to t.
-fn series(values: &[f64], t: f64, order: usize) -> [PowerSeries; 3] {
+fn coordinates(values: &[f64], angle: &PowerSeries) -> [PowerSeries; 2] {
+    let (t, order) = (angle.value(), angle.order());
     let relative = |u: f64| {
         let half = (0.5 * u).sin();
         // Quadrature never asks for u = 0.
         [-2.0 * half * half / u, u.sin() / u]
     };
     let [cosine, sine] = integrated((KIND.name, &[]), t, |u| u, relative);
-    let angle = PowerSeries::parameter(t, order);
     let (sines, cosines) = angle.sin_cos();
-    let (rise, run) = (&sines / &angle, &cosines / &angle);
+    let (rise, run) = (&sines / angle, &cosines / angle);
     let x = run.antiderivative(EULER + t.ln() + cosine, order);
     let y = rise.antiderivative(sine, order);
-    [
-        x.times(values[0]),
-        y.times(values[0]),
-        PowerSeries::constant(0.0, order),
-    ]
+    [x.times(values[0]), y.times(values[0])]
 }

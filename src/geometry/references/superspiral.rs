@@ -15,7 +15,7 @@ use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 use super::integral::MOST_TURNING;
-use super::kind::ReferenceKind;
+use super::kind::{Coordinates, ReferenceKind};
 use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
@@ -48,29 +48,28 @@ pub static KIND: ReferenceKind = ReferenceKind {
     label: "Superspiral",
     help: "Radius of curvature ₂F₁(a, b; c; −t) at direction angle t: completely monotone for a > 0, c > b > 0",
     parameters: &[
-        Parameter {
-            name: "a",
-            label: "a",
-            help: "The first parameter of the hypergeometric function",
-            kind: Number::between(-20.0, 20.0, 0.5),
-        },
-        Parameter {
-            name: "b",
-            label: "b",
-            help: "The second parameter",
-            kind: Number::between(-20.0, 20.0, 1.0),
-        },
-        Parameter {
-            name: "c",
-            label: "c",
-            help: "The third parameter",
-            kind: Number::between(1e-3, 20.0, 1.5),
-        },
+        Parameter::new(
+            "a",
+            "a",
+            "The first parameter of the hypergeometric function",
+            Number::between(-20.0, 20.0, 0.5),
+        ),
+        Parameter::new(
+            "b",
+            "b",
+            "The second parameter",
+            Number::between(-20.0, 20.0, 1.0),
+        ),
+        Parameter::new(
+            "c",
+            "c",
+            "The third parameter",
+            Number::between(1e-3, 20.0, 1.5),
+        ),
     ],
-    planar: true,
     interval: |_| [0.0, TAU],
     domain: |_| DOMAIN,
-    series,
+    coordinates: Coordinates::Planar(coordinates),
 };
 
 thread_local! {
@@ -80,7 +79,7 @@ thread_local! {
 }
 
 /// Expand the spiral.
-fn series(values: &[f64], psi: f64, order: usize) -> [PowerSeries; 3] {
+fn coordinates(values: &[f64], psi: &PowerSeries) -> [PowerSeries; 2] {
     let radius = Radius {
         a: values[0],
         b: values[1],
@@ -89,7 +88,7 @@ fn series(values: &[f64], psi: f64, order: usize) -> [PowerSeries; 3] {
     LAST.with_borrow_mut(|last| {
         let kept = last.take().filter(|spiral| spiral.radius == radius);
         let spiral = last.insert(kept.unwrap_or_else(|| Spiral::new(radius)));
-        spiral.series(psi, order)
+        spiral.series(psi.value(), psi.order())
     })
 }
 
@@ -122,7 +121,7 @@ impl Spiral {
         }
     }
 
-    fn series(&mut self, psi: f64, order: usize) -> [PowerSeries; 3] {
+    fn series(&mut self, psi: f64, order: usize) -> [PowerSeries; 2] {
         let radius = self.radius;
         let (point, last) = match self.piece(psi) {
             Some(piece) => (piece.point(psi), Some(&piece.expansion)),
@@ -133,7 +132,6 @@ impl Spiral {
         [
             run.antiderivative(point[0], order),
             rise.antiderivative(point[1], order),
-            PowerSeries::constant(0.0, order),
         ]
     }
 
