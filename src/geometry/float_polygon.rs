@@ -209,6 +209,29 @@ impl FloatPolygon {
         begun
     }
 
+    /// The open polygon of a range of vertices, across the joint as often as needed.
+    ///
+    /// # Errors
+    /// [`PolygonError::TooFewVertices`] if there are fewer than n + 1.
+    pub(super) fn window(&self, vertices: Range<usize>) -> Result<Self, PolygonError> {
+        let weights = vertices.clone().map(|index| self.weight(index)).collect();
+        let weights = Some(weights).filter(|_| self.is_rational());
+        let vertices = vertices.map(|index| self.vertex(index)).collect();
+        Self::new(self.degree, vertices, weights, false)
+    }
+
+    /// Refuse a periodic curve.
+    ///
+    /// # Errors
+    /// [`PolygonError::PeriodicCurve`], which says that it cannot be `done`.
+    pub(super) fn check_open(&self, done: &'static str) -> Result<(), PolygonError> {
+        if self.is_periodic() {
+            Err(PolygonError::PeriodicCurve { done })
+        } else {
+            Ok(())
+        }
+    }
+
     fn wrapped(&self, index: usize) -> usize {
         if self.periodic {
             index % self.vertices.len()

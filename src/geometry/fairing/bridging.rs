@@ -206,10 +206,8 @@ struct Trial {
 
 impl Parts<'_> {
     fn check_open(&self, done: &'static str) -> Result<(), PolygonError> {
-        if self.first.is_periodic() || self.second.is_periodic() {
-            return Err(PolygonError::PeriodicCurve { done });
-        }
-        Ok(())
+        self.first.check_open(done)?;
+        self.second.check_open(done)
     }
 
     fn is_planar(&self) -> bool {
@@ -226,23 +224,9 @@ impl Parts<'_> {
                 .map(|(polygon, index)| (polygon.vertex(index), polygon.weight(index)));
             a == b
         });
-        let polygon = |first: &FloatPolygon, second: &FloatPolygon| {
-            let rational = first.weights().is_some() || second.weights().is_some();
-            let rest = if self.closes {
-                0..0
-            } else {
-                0..second.vertices().len()
-            };
-            let all = (0..begin).map(|index| (first, index));
-            let all = all.chain(rest.map(|index| (second, index)));
-            let (vertices, weights) = all
-                .map(|(polygon, index)| (polygon.vertex(index), polygon.weight(index)))
-                .unzip();
-            let weights: Option<Vec<f64>> = Some(weights).filter(|_| rational);
-            FloatPolygon::new(degree, vertices, weights, self.closes)
-        };
         // A curve that closes may have too few vertices without those.
-        let polygon = polygon(self.first, self.second).ok().filter(|_| shared)?;
+        let polygon = self.composite(begin, &[], self.second.vertices());
+        let polygon = polygon.ok().filter(|_| shared)?;
         Some(Trial {
             polygon,
             bridge: begin..begin,
@@ -351,23 +335,23 @@ impl Parts<'_> {
         (0..count).map(point).collect()
     }
 
-    /// Put the composite together, the second part with these vertices.
+    /// Put the composite together: so many vertices of the first part, the bridge, and the second part
+    /// with these vertices.
     fn composite(
         &self,
+        first: usize,
         bridge: &[(DVec3, f64)],
         second: &[DVec3],
     ) -> Result<FloatPolygon, PolygonError> {
-        let mut vertices = self.first.vertices().to_vec();
-        vertices.extend(bridge.iter().map(|(point, _)| *point));
-        let is_rational = self.first.weights().is_some() || self.second.weights().is_some();
-        let mut weights: Vec<f64> = (0..self.first.vertices().len())
-            .map(|index| self.first.weight(index))
-            .collect();
-        weights.extend(bridge.iter().map(|(_, logarithm)| logarithm.exp()));
-        if !self.closes {
-            vertices.extend_from_slice(second);
-            weights.extend((0..second.len()).map(|index| self.second.weight(index)));
-        }
+        let second = if self.closes { &[] } else { second };
+        let first = (0..first).map(|index| (self.first.vertex(index), self.first.weight(index)));
+        let bridge = bridge
+            .iter()
+            .map(|(point, logarithm)| (*point, logarithm.exp()));
+        let second = second.iter().enumerate();
+        let second = second.map(|(index, vertex)| (*vertex, self.second.weight(index)));
+        let (vertices, weights): (_, Vec<f64>) = first.chain(bridge).chain(second).unzip();
+        let is_rational = self.first.is_rational() || self.second.is_rational();
         let weights = is_rational.then_some(weights);
         FloatPolygon::new(self.first.degree(), vertices, weights, self.closes)
     }
@@ -379,8 +363,8 @@ impl Parts<'_> {
         order: usize,
         iterations: &mut usize,
     ) -> Result<Vec<Trial>, BridgeError> {
-        let guess = self.composite(&self.guess(count), self.second.vertices())?;
         let first = self.first.vertices().len();
+        let guess = self.composite(first, &self.guess(count), self.second.vertices())?;
         let bridge = first..first + count;
         let problem = Problem::new(&guess, self.is_planar(), |vertex| bridge.contains(&vertex));
         let mut vertices = guess.vertices().to_vec();
@@ -408,8 +392,8 @@ impl Parts<'_> {
         let parts = [self.first.vertices(), self.second.vertices()];
         let (points, second) = walk(parts, count, order, self.is_planar());
         let bridge: Vec<(DVec3, f64)> = points.into_iter().zip(weights).collect();
-        let polygon = self.composite(&bridge, &second)?;
         let first = self.first.vertices().len();
+        let polygon = self.composite(first, &bridge, &second)?;
         let bridge = first..first + count;
         Ok(Trial {
             rank: (features(&polygon, &bridge)? as f64, count),
@@ -524,10 +508,7 @@ fn around(
         let last = (bridge.end + beside).min(count);
         (bridge.start.saturating_sub(beside), last)
     };
-    let vertices = (first..last).map(|index| polygon.vertex(index));
-    let weights = (first..last).map(|index| polygon.weight(index)).collect();
-    let weights = polygon.weights().is_some().then_some(weights);
-    let part = FloatPolygon::new(degree, vertices.collect(), weights, false)?;
+    let part = polygon.window(first..last)?;
     let bridge_first = if polygon.is_periodic() {
         beside
     } else {

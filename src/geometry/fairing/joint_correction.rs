@@ -1,10 +1,12 @@
 //! Both ends at once: the least disturbance that meets every end condition.
 
+use std::cell::Cell;
+
 use glam::DVec3;
 use thiserror::Error;
 
 use super::objective::Objective;
-use super::problem::{self, Problem};
+use super::problem::{self, Descent, Problem};
 use crate::geometry::end::End;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::error::PolygonError;
@@ -61,6 +63,8 @@ pub enum CorrectionError {
         freedoms: usize,
         /// The largest residual left, as a length.
         residual: f64,
+        /// The number of steps until this was found.
+        steps: usize,
     },
     /// A vertex would leave the range of numbers.
     #[error(transparent)]
@@ -158,7 +162,7 @@ pub fn correct_hastily(
     if points_forward(&found.polygon, targets) {
         Ok(found)
     } else {
-        Err(not_solvable(&problem, found.residual))
+        Err(correction.not_solvable(&problem, found.residual))
     }
 }
 
@@ -176,20 +180,14 @@ fn points_forward(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> bool 
     })
 }
 
-fn not_solvable(problem: &Problem, residual: f64) -> CorrectionError {
-    CorrectionError::NotSolvable {
-        conditions: problem.conditions(),
-        freedoms: problem.freedoms(),
-        residual,
-    }
-}
-
 struct Correction<'a> {
     polygon: &'a FloatPolygon,
     targets: &'a [(End, EndTarget)],
     disturbance: Disturbance,
     locked: &'a [usize],
     progress: &'a Progress,
+    /// The steps of all attempts.
+    taken: Cell<usize>,
 }
 
 impl<'a> Correction<'a> {
@@ -216,6 +214,7 @@ impl<'a> Correction<'a> {
                 disturbance,
                 locked,
                 progress,
+                taken: Cell::new(0),
             }),
         }
     }
@@ -251,6 +250,29 @@ impl<'a> Correction<'a> {
         problem
     }
 
+    fn not_solvable(&self, problem: &Problem, residual: f64) -> CorrectionError {
+        CorrectionError::NotSolvable {
+            conditions: problem.conditions(),
+            freedoms: problem.freedoms(),
+            residual,
+            steps: self.taken.get(),
+        }
+    }
+
+    /// Meet a problem's conditions with the least differences of the moves, and count the steps.
+    fn meet(
+        &self,
+        problem: &Problem,
+        order: usize,
+        begin: &[DVec3],
+        most: usize,
+    ) -> Option<Descent> {
+        let fidelity = FIDELITY;
+        let found = problem.meet(Objective::Disturbance { order, fidelity }, begin, most)?;
+        self.taken.update(|taken| taken + found.steps);
+        Some(found)
+    }
+
     /// Meet the targets from given vertices by at most `most` steps, and check the residual.
     fn finish(
         &self,
@@ -258,13 +280,12 @@ impl<'a> Correction<'a> {
         begin: &[DVec3],
         most: usize,
     ) -> Result<JointCorrection, CorrectionError> {
-        let unsolved = |residual| not_solvable(problem, residual);
+        let unsolved = |residual| self.not_solvable(problem, residual);
         let order = match self.disturbance {
             Disturbance::Differences(order) => order,
             Disturbance::Harmony => 1,
         };
-        let fidelity = FIDELITY;
-        let found = problem.meet(Objective::Disturbance { order, fidelity }, begin, most);
+        let found = self.meet(problem, order, begin, most);
         let mut found = found.ok_or_else(|| unsolved(self.residual(self.polygon)))?;
         if self.disturbance == Disturbance::Harmony {
             let objective = problem.harmony(problem.measure(), 2, CLOSENESS);
@@ -279,7 +300,7 @@ impl<'a> Correction<'a> {
         let polygon = problem.polygon(&found.vertices);
         let polygon = polygon.map_err(|_| unsolved(self.residual(self.polygon)))?;
         let residual = self.residual(&polygon);
-        if !self.is_met(&polygon) {
+        if !self.is_met(&polygon, self.targets) {
             return Err(unsolved(residual));
         }
         Ok(JointCorrection {
@@ -292,48 +313,26 @@ impl<'a> Correction<'a> {
     /// Approach curvatures and slopes from those that the curve has once points and directions are
     /// met. `None` if even those cannot be met.
     fn part_by_part(&self, speed: Speed) -> Option<Result<JointCorrection, CorrectionError>> {
-        let objective = Objective::Disturbance {
-            order: 1,
-            fidelity: FIDELITY,
-        };
-        let placed: Vec<(End, EndTarget)> = self
-            .targets
-            .iter()
-            .map(|(end, target)| {
-                let placed = EndTarget {
-                    curvature: None,
-                    slope: None,
-                    ..*target
-                };
-                (*end, placed)
-            })
-            .collect();
+        let placed = self.targets_with(|_, target| EndTarget {
+            curvature: None,
+            slope: None,
+            ..target
+        });
         let problem = self.problem(&placed, speed);
-        let mut reached = problem.meet(objective, problem.before(), problem::MOST_STEPS)?;
+        let mut reached = self.meet(&problem, 1, problem.before(), problem::MOST_STEPS)?;
         let begun = problem.polygon(&reached.vertices).ok()?;
         let (mut done, mut part) = (0.0, 0.5);
         let mut steps = reached.steps;
         while done < 1.0 && part * MOST_PARTS >= 1.0 && !self.progress.is_cancelled() {
             let share: f64 = f64::min(1.0, done + part);
-            let targets: Vec<(End, EndTarget)> = self
-                .targets
-                .iter()
-                .map(|(end, target)| (*end, partial(&begun, *end, target, share)))
-                .collect();
+            let targets = self.targets_with(|end, target| partial(&begun, end, &target, share));
             let problem = self.problem(&targets, speed);
-            let next = problem.meet(objective, &reached.vertices, problem::MOST_STEPS)?;
+            let next = self.meet(&problem, 1, &reached.vertices, problem::MOST_STEPS)?;
             steps += next.steps;
-            let correction = Correction {
-                targets: &targets,
-                ..*self
-            };
-            let is_met = |polygon: &FloatPolygon| {
-                correction.is_met(polygon) && points_forward(polygon, &targets)
-            };
-            if problem
-                .polygon(&next.vertices)
-                .is_ok_and(|polygon| is_met(&polygon))
-            {
+            let is_met = problem.polygon(&next.vertices).is_ok_and(|polygon| {
+                self.is_met(&polygon, &targets) && points_forward(&polygon, &targets)
+            });
+            if is_met {
                 (done, reached) = (share, next);
                 part *= 2.0;
             } else {
@@ -348,6 +347,13 @@ impl<'a> Correction<'a> {
         }))
     }
 
+    fn targets_with(&self, change: impl Fn(End, EndTarget) -> EndTarget) -> Vec<(End, EndTarget)> {
+        let targets = self.targets.iter();
+        targets
+            .map(|(end, target)| (*end, change(*end, *target)))
+            .collect()
+    }
+
     fn residual(&self, polygon: &FloatPolygon) -> f64 {
         let size = self.polygon.size();
         let left = self.targets.iter();
@@ -356,11 +362,11 @@ impl<'a> Correction<'a> {
     }
 
     /// Whether every target is met, but for rounding.
-    fn is_met(&self, polygon: &FloatPolygon) -> bool {
+    fn is_met(&self, polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> bool {
         let size = self.polygon.size();
         let reach = polygon.vertices().iter().map(|v| v.abs().max_element());
         let scale = reach.fold(size, f64::max);
-        self.targets.iter().all(|(end, target)| {
+        targets.iter().all(|(end, target)| {
             let left = EndDifference::between(polygon, *end, target);
             let placed = EndDifference {
                 curvature: 0.0,

@@ -33,45 +33,27 @@ pub fn correct_near_end(
     locked: &[usize],
     correct: Corrector,
 ) -> Result<FloatPolygon, CorrectionError> {
-    let (count, reach) = (
-        polygon.vertices().len(),
-        reach(polygon).min(polygon.vertices().len()),
-    );
+    let (degree, count) = (polygon.degree(), polygon.vertices().len());
+    let reach = reach(polygon).min(count);
     let (near, far) = match end {
-        End::Start => (0..reach, reach - polygon.degree()..reach),
-        End::Finish => (
-            count - reach..count,
-            count - reach..count - reach + polygon.degree(),
-        ),
+        End::Start => (0..reach, reach - degree..reach),
+        End::Finish => (count - reach..count, count - reach..count - reach + degree),
     };
     // About the target as origin, so that no digits are lost to where the curve lies.
     let origin = target.point;
-    let vertices: Vec<DVec3> = near
-        .clone()
-        .map(|index| polygon.vertex(index) - origin)
-        .collect();
-    let weights = near.clone().map(|index| polygon.weight(index)).collect();
-    let weights = Some(weights).filter(|_| polygon.is_rational());
-    let part = FloatPolygon::new(polygon.degree(), vertices, weights, false)?;
+    let mut part = polygon.window(near.clone())?;
+    let places = part.vertices().iter().map(|vertex| *vertex - origin);
+    let places: Vec<(usize, DVec3)> = places.enumerate().collect();
+    part.move_vertices(places)?;
     let target = EndTarget {
         point: DVec3::ZERO,
         ..*target
     };
     let held = |index: &usize| far.contains(index) || locked.contains(index);
-    let held_here: Vec<usize> = near
-        .clone()
-        .filter(held)
-        .map(|index| index - near.start)
-        .collect();
-    let least = Disturbance::Differences(1);
-    let corrected = correct(
-        &part,
-        &[(end, target)],
-        least,
-        &held_here,
-        &Progress::default(),
-    )?
-    .polygon;
+    let held_here = near.clone().filter(held).map(|index| index - near.start);
+    let held_here: Vec<usize> = held_here.collect();
+    let (targets, least) = ([(end, target)], Disturbance::Differences(1));
+    let corrected = correct(&part, &targets, least, &held_here, &Progress::default())?.polygon;
     let moves = near.clone().filter(|index| !held(index));
     let moves: Vec<(usize, DVec3)> = moves
         .map(|index| (index, origin + corrected.vertex(index - near.start)))

@@ -1,7 +1,5 @@
 //! Parts of a curve.
 
-use std::ops::Range;
-
 use super::kept_ends::with_ends;
 use crate::geometry::conversion::approximation::Approximation;
 use crate::geometry::conversion::deviation::from_part;
@@ -51,12 +49,12 @@ impl FloatPolygon {
         };
         // Only the segments that the part touches are subdivided.
         let (first, last) = (from.floor(), to.ceil());
-        let mut part = self.window(first as usize..last as usize)?;
+        let mut part = self.window(first as usize..last as usize + self.degree())?;
         for _ in 0..halvings {
             part = part.subdivided()?;
         }
         let knot = |u: f64| ((u - first) * factor(halvings)) as usize;
-        let part = part.window(knot(from)..knot(to))?;
+        let part = part.window(knot(from)..knot(to) + self.degree())?;
         Ok(Approximation::exact(part))
     }
 
@@ -76,15 +74,6 @@ impl FloatPolygon {
             before,
             self.trimmed(at, self.segments() as f64, subdivisions)?,
         ))
-    }
-
-    /// Take the vertices of the segments between two knots, across the joint as often as needed.
-    fn window(&self, knots: Range<usize>) -> Result<Self, PolygonError> {
-        let window = knots.start..knots.end + self.degree();
-        let vertices = window.clone().map(|index| self.vertex(index)).collect();
-        let weights = window.map(|index| self.weight(index)).collect();
-        let weights = Some(weights).filter(|_| self.is_rational());
-        Self::new(self.degree(), vertices, weights, false)
     }
 
     fn trimmed_near(
@@ -122,18 +111,6 @@ impl FloatPolygon {
             Ok(())
         } else {
             Err(PolygonError::NoSuchPart { from, to, segments })
-        }
-    }
-
-    /// Refuse a periodic curve.
-    ///
-    /// # Errors
-    /// [`PolygonError::PeriodicCurve`], which says that it cannot be `done`.
-    pub(in crate::geometry) fn check_open(&self, done: &'static str) -> Result<(), PolygonError> {
-        if self.is_periodic() {
-            Err(PolygonError::PeriodicCurve { done })
-        } else {
-            Ok(())
         }
     }
 }
