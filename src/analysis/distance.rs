@@ -46,9 +46,7 @@ impl Distance {
         let [from, to] = reach;
         let segments = polygon.segments() as f64;
         let beside = |u: f64| from + (to - from) * u / segments;
-        let found =
-            MeasuredDeviation::measure_cancellably(polygon, other, &beside, reach, progress)
-                .ok()?;
+        let found = MeasuredDeviation::measure(polygon, other, &beside, reach, progress).ok()?;
         Some(Self {
             largest: found.largest,
             mean: found.mean,

@@ -28,7 +28,11 @@ impl ControlPolygon {
         weights: Option<Vec<f64>>,
         periodic: bool,
     ) -> Result<Self, PolygonError> {
-        check_polygon(degree, &vertices, weights.as_deref(), periodic)?;
+        check_size(degree, vertices.len(), periodic)?;
+        for (index, vertex) in vertices.iter().enumerate() {
+            check_vertex(index, *vertex)?;
+        }
+        check_weights(weights.as_deref(), vertices.len())?;
         Ok(Self {
             degree,
             vertices,
@@ -88,18 +92,6 @@ impl ControlPolygon {
     }
 }
 
-/// Refuse data that make no polygon, whatever its knots.
-fn check_polygon(
-    degree: usize,
-    vertices: &[DVec3],
-    weights: Option<&[f64]>,
-    periodic: bool,
-) -> Result<(), PolygonError> {
-    check_size(degree, vertices.len(), periodic)?;
-    check_vertices(vertices)?;
-    check_weights(weights, vertices.len())
-}
-
 /// Refuse degrees that there are not, and numbers of vertices that make no curve.
 pub(super) fn check_size(degree: usize, found: usize, periodic: bool) -> Result<(), PolygonError> {
     check_degree(degree)?;
@@ -123,11 +115,6 @@ pub(super) fn check_degree(degree: usize) -> Result<(), PolygonError> {
     }
 }
 
-fn check_vertices(vertices: &[DVec3]) -> Result<(), PolygonError> {
-    let mut numbered = vertices.iter().enumerate();
-    numbered.try_for_each(|(index, vertex)| check_vertex(index, *vertex))
-}
-
 pub(super) fn check_vertex(index: usize, vertex: DVec3) -> Result<(), PolygonError> {
     for (axis, value) in ['x', 'y', 'z'].into_iter().zip(vertex.to_array()) {
         if value.is_nan() || value.abs() > MAX_MAGNITUDE {
@@ -147,8 +134,10 @@ fn check_weights(weights: Option<&[f64]>, vertices: usize) -> Result<(), Polygon
             vertices,
         });
     }
-    let mut numbered = weights.iter().enumerate();
-    numbered.try_for_each(|(index, weight)| check_weight(index, *weight))
+    for (index, weight) in weights.iter().enumerate() {
+        check_weight(index, *weight)?;
+    }
+    Ok(())
 }
 
 pub(super) fn check_weight(index: usize, weight: f64) -> Result<(), PolygonError> {
@@ -164,9 +153,6 @@ pub(super) fn check_weight(index: usize, weight: f64) -> Result<(), PolygonError
 
 /// The diagonal of the box around some points.
 pub(super) fn diagonal(points: &[DVec3]) -> f64 {
-    let (low, high) = points.iter().fold(
-        (DVec3::INFINITY, DVec3::NEG_INFINITY),
-        |(low, high), point| (low.min(*point), high.max(*point)),
-    );
+    let (low, high) = vector::bounds(points);
     vector::length(high - low)
 }

@@ -41,6 +41,7 @@ mod progress;
 mod quadrature;
 mod rebuilding;
 pub mod references;
+mod root;
 mod sampled_cusps;
 mod sampler;
 mod segment_expansion;

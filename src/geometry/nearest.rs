@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::float_polygon::FloatPolygon;
 use super::jet::Jet;
 use super::sampler::{Batch, Sampler};
+use super::vector;
 
 /// Samples a segment from which the search for the nearest point starts.
 const STARTS: usize = 16;
@@ -57,11 +58,8 @@ impl FloatPolygon {
     }
 
     fn box_distance(&self, segment: usize, target: DVec3) -> f64 {
-        let vertices = (segment..=segment + self.degree()).map(|index| self.vertex(index));
-        let (low, high) = vertices.fold(
-            (DVec3::INFINITY, DVec3::NEG_INFINITY),
-            |(low, high), vertex| (low.min(vertex), high.max(vertex)),
-        );
+        let vertices = segment..=segment + self.degree();
+        let (low, high) = vector::bounds(vertices.map(|index| self.vertex(index)));
         target.distance(target.clamp(low, high))
     }
 

@@ -58,6 +58,17 @@ impl PowerSeries {
         Self(values.enumerate().map(coefficient).collect())
     }
 
+    /// The coordinates of a curve by the values of its derivatives.
+    pub(in crate::geometry) fn coordinates(values: &[DVec3]) -> [Self; 3] {
+        [0, 1, 2].map(|axis| Self::of_derivatives(values.iter().map(|value| value[axis])))
+    }
+
+    /// The derivatives of a curve, given by its own, by another parameter.
+    pub(in crate::geometry) fn reparametrised(values: &[DVec3], inner: &Self) -> Vec<DVec3> {
+        let coordinates = Self::coordinates(values).map(|series| series.composed(inner));
+        Self::derivatives(coordinates.each_ref())
+    }
+
     /// Write the series of three coordinates as a point and its derivatives.
     pub(in crate::geometry) fn derivatives([x, y, z]: [&Self; 3]) -> Vec<DVec3> {
         let coordinates = x.0.iter().zip(&y.0).zip(&z.0);

@@ -2,6 +2,7 @@
 
 use super::jet::Jet;
 use super::parametric_curve::ParametricCurve;
+use super::root::root;
 
 /// Samples in all, about.
 const SAMPLES: usize = 1024;
@@ -11,9 +12,6 @@ const LEAST_STEPS: usize = 8;
 
 /// A speed that is no more than this share of the speeds beside it is 0 but for rounding.
 const STOPPED: f64 = 1e-9;
-
-/// Steps of a bisection: to the last digit.
-const HALVINGS: usize = 64;
 
 /// List the parameters u at which a curve stops, C′ = 0, as samples show: where the speed is least between two of
 /// them and, once that place is found by C′ · C″ = 0, no more than rounding is left of it. There a curve has a
@@ -49,19 +47,8 @@ fn slowest(curve: &dyn ParametricCurve, piece: usize, [from, to]: [f64; 2]) -> O
         let jet = curve.piece_jet(piece, t);
         jet.first.dot(jet.second) > 0.0
     };
-    if rises(from) || !rises(to) {
-        return None;
-    }
-    let (mut low, mut high) = (from, to);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if rises(middle) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    Some(0.5 * (low + high))
+    let side = |t: f64| if rises(t) { 1.0 } else { -1.0 };
+    (!rises(from) && rises(to)).then(|| root([from, to], 0.0, side))
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! Lengths and directions of vectors whose squares would leave the range of numbers, and the larger
 //! of two lengths.
 
+use std::borrow::Borrow;
+
 use glam::DVec3;
 
 /// Components between this and its inverse can be squared and cubed without harm.
@@ -40,6 +42,23 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
     } else {
         a.max(b)
     }
+}
+
+/// The corners of the smallest box that holds points, inside out if there are none.
+pub(super) fn bounds(points: impl IntoIterator<Item = impl Borrow<DVec3>>) -> (DVec3, DVec3) {
+    let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let points = points.into_iter();
+    points.fold(none, |(low, high), point| {
+        (low.min(*point.borrow()), high.max(*point.borrow()))
+    })
+}
+
+/// The largest absolute coordinate of points.
+pub(super) fn reach(points: impl IntoIterator<Item = impl Borrow<DVec3>>) -> f64 {
+    let reach = points
+        .into_iter()
+        .map(|point| point.borrow().abs().max_element());
+    reach.fold(0.0, f64::max)
 }
 
 fn is_moderate(largest: f64) -> bool {

@@ -10,7 +10,7 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Kind, POSITIVE, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit};
-use crate::geometry::approximation::{FitAsked, FitError, Fitted, fit_points};
+use crate::geometry::approximation::{FitRequest, FitError, Fitted, fit_points};
 use crate::geometry::parameters::OutOfRange;
 use crate::geometry::{MAX_DEGREE, Progress, counted, significant};
 
@@ -65,7 +65,7 @@ pub static OPERATION: Operation = Operation {
 };
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
-    let asked = FitAsked {
+    let asked = FitRequest {
         degree: values.whole(&DEGREE),
         count: vertices(input, values)?,
         extrema: given_count(values, &EXTREMA),
@@ -103,7 +103,7 @@ fn vertices(input: &Operands, values: &Values) -> Result<Option<usize>, Operatio
     }
 }
 
-fn figures(asked: &FitAsked, found: &Fitted) -> Vec<Figure> {
+fn figures(asked: &FitRequest, found: &Fitted) -> Vec<Figure> {
     let any = asked.extrema.map(|_| {
         let label = "RMS with any number of extrema";
         Figure::length("rms_of_any", label, found.rms_of_any)
@@ -122,7 +122,7 @@ fn figures(asked: &FitAsked, found: &Fitted) -> Vec<Figure> {
 }
 
 /// What is to say beside the figures: counts and tolerances that are missed, and a fit that is far off.
-fn remarks(asked: &FitAsked, found: &Fitted) -> Vec<String> {
+fn remarks(asked: &FitRequest, found: &Fitted) -> Vec<String> {
     let mut remarks = Vec::new();
     let vertices = found.polygon.vertices().len();
     if let Some(extrema) = asked.extrema.filter(|extrema| *extrema != found.extrema) {

@@ -151,7 +151,8 @@ pub fn spiral_deviations(vertices: usize) -> Result<[f64; 2], PaperError> {
     let far = |placing| {
         let polygon = float_polygon(&spiral, &knots, placing)?;
         let parameter = |u| knots.curve_parameter(u);
-        let measured = MeasuredDeviation::measure(&polygon, &spiral, &parameter, knots.reach())?;
+        let (reach, progress) = (knots.reach(), Progress::default());
+        let measured = MeasuredDeviation::measure(&polygon, &spiral, &parameter, reach, &progress)?;
         Ok::<_, PaperError>(measured.largest)
     };
     Ok([far(Placing::OnCurve)?, far(Placing::Quasi)?])

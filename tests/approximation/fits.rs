@@ -1,6 +1,6 @@
 //! Curves through the middle of points that are off known curves.
 
-use batten::geometry::approximation::{FitAsked, FitError, fit_points};
+use batten::geometry::approximation::{FitError, FitRequest, fit_points};
 use batten::geometry::features::Features;
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{Differentiable, Progress};
@@ -31,7 +31,7 @@ pub fn noisy(text: &str, count: usize, noise: f64, random: &mut Random) -> (Vec<
     (points, (sum / count as f64).sqrt())
 }
 
-const ASKED: FitAsked = FitAsked {
+const ASKED: FitRequest = FitRequest {
     degree: 5,
     count: None,
     extrema: None,
@@ -54,7 +54,7 @@ fn extrema_are_as_asked_for_proved_and_errors_are_the_noise_s() {
     for (text, extrema) in SHAPES {
         for noise in [0.002, 0.01] {
             let (points, off) = noisy(text, 120, noise, &mut random);
-            let asked = FitAsked {
+            let asked = FitRequest {
                 extrema: Some(extrema),
                 ..ASKED
             };
@@ -81,7 +81,7 @@ fn good_points_in_a_row_are_no_outliers() {
             let mut random = Random(seed);
             let text = "ellipse:a=3,b=1,from=-0.3,to=5.98";
             let (points, off) = noisy(text, 200, noise, &mut random);
-            let asked = FitAsked {
+            let asked = FitRequest {
                 extrema: Some(4),
                 ..ASKED
             };
@@ -100,7 +100,7 @@ fn good_points_in_a_row_are_no_outliers() {
                 continue;
             }
             // A tolerance that this curve keeps makes no other one worse.
-            let kept = FitAsked {
+            let kept = FitRequest {
                 tolerance: Some(found.largest),
                 ..asked
             };
@@ -120,7 +120,7 @@ fn as_many_vertices_as_points_meet_them_exactly() {
     for degree in 1..=5 {
         let place = |x: f64| DVec3::new(x, (1.7 * x).sin(), 0.0);
         let points: Vec<DVec3> = (0..=degree).map(|x| place(x as f64)).collect();
-        let asked = FitAsked {
+        let asked = FitRequest {
             degree,
             count: Some(degree + 1),
             ..ASKED
@@ -134,14 +134,14 @@ fn as_many_vertices_as_points_meet_them_exactly() {
 fn exact_points_are_met_to_the_tolerance() {
     let mut random = Random(1);
     let (points, _) = noisy("clothoid:from=0,to=2", 80, 0.0, &mut random);
-    let asked = FitAsked {
+    let asked = FitRequest {
         tolerance: Some(1e-6),
         ..ASKED
     };
     let found = fit_points(&points, &asked, &Progress::default()).expect("a curve");
     assert!(found.reached && found.largest <= 1e-6, "{found:?}");
     assert!(found.outliers.is_empty());
-    let out_of_reach = FitAsked {
+    let out_of_reach = FitRequest {
         count: Some(6),
         tolerance: Some(1e-9),
         ..ASKED
@@ -157,7 +157,7 @@ fn outliers_are_found_and_do_not_count() {
     for index in [20, 51, 77] {
         points[index] += DVec3::new(0.05, 0.3, 0.0);
     }
-    let asked = FitAsked {
+    let asked = FitRequest {
         extrema: Some(1),
         ..ASKED
     };
@@ -181,7 +181,7 @@ fn outliers_are_found_and_do_not_count() {
 fn points_in_space_are_fitted() {
     let mut random = Random(3);
     let (points, _) = noisy("helix:radius=2,pitch=3,from=0,to=6", 150, 0.0, &mut random);
-    let asked = FitAsked {
+    let asked = FitRequest {
         degree: 6,
         count: Some(20),
         ..ASKED
@@ -193,7 +193,8 @@ fn points_in_space_are_fitted() {
 
 #[test]
 fn points_that_make_no_curve_are_refused() {
-    let fit = |points: &[DVec3], asked: FitAsked| fit_points(points, &asked, &Progress::default());
+    let fit =
+        |points: &[DVec3], asked: FitRequest| fit_points(points, &asked, &Progress::default());
     let same = fit(&[DVec3::ONE; 20], ASKED);
     assert_eq!(
         same,
@@ -207,7 +208,7 @@ fn points_that_make_no_curve_are_refused() {
         Err(FitError::TooFewPoints { .. })
     ));
     let line: Vec<DVec3> = (0..10).map(|x| DVec3::X * f64::from(x)).collect();
-    let many = FitAsked {
+    let many = FitRequest {
         count: Some(11),
         ..ASKED
     };
@@ -233,7 +234,7 @@ fn extrema_that_a_polygon_cannot_hold_are_refused_with_the_number_that_can() {
         &mut random,
     );
     let fit = |count: Option<usize>, extrema: usize| {
-        let asked = FitAsked {
+        let asked = FitRequest {
             count,
             extrema: Some(extrema),
             ..ASKED
@@ -271,7 +272,7 @@ fn long_ellipses_are_fitted_within_the_noise_whatever_the_seed() {
         let mut random = Random(seed);
         let text = "ellipse:a=3,b=1,from=-0.3,to=5.98";
         let (points, off) = noisy(text, 200, 0.005, &mut random);
-        let asked = FitAsked {
+        let asked = FitRequest {
             extrema: Some(4),
             ..ASKED
         };

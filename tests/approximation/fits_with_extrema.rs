@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use batten::geometry::approximation::{FitAsked, fit_points};
+use batten::geometry::approximation::{FitRequest, fit_points};
 use batten::geometry::features::Features;
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{Differentiable, Progress};
@@ -47,7 +47,7 @@ impl Tally {
     ) {
         let mut random = Random(seed);
         let (points, off) = noisy(text, POINTS, noise * size(text), &mut random);
-        let asked = FitAsked {
+        let asked = FitRequest {
             degree,
             count,
             extrema: Some(extrema),

@@ -4,7 +4,7 @@ use batten::geometry::approximation::{
     ApproximationError, MeasuredDeviation, Placing, UniformKnots, float_polygon,
 };
 use batten::geometry::references::ReferenceCurve;
-use batten::geometry::{Differentiable, FloatPolygon, PolygonError};
+use batten::geometry::{Differentiable, FloatPolygon, PolygonError, Progress};
 use glam::DVec3;
 
 use crate::common::{assert_near, list, number, reference};
@@ -22,8 +22,14 @@ fn deviation(
     polygon: &FloatPolygon,
 ) -> MeasuredDeviation {
     let parameter = |u: f64| knots.curve_parameter(u);
-    MeasuredDeviation::measure(polygon, curve, &parameter, knots.reach())
-        .expect("a curve with points")
+    MeasuredDeviation::measure(
+        polygon,
+        curve,
+        &parameter,
+        knots.reach(),
+        &Progress::default(),
+    )
+    .expect("a curve with points")
 }
 
 #[test]

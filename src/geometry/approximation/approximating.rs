@@ -347,13 +347,15 @@ fn approximated(
         point.distance(curve.derivatives(t, 0)[0])
     };
     let [from, to] = interval;
+    let progress = Progress::default();
+    let deviation = MeasuredDeviation::measure(&polygon, curve, &parameter, reach, &progress)?;
     let mut found = Approximated {
         interval,
-        deviation: MeasuredDeviation::measure(&polygon, curve, &parameter, reach)?,
+        deviation,
         end_errors: (!polygon.is_periodic())
             .then(|| [error(End::Start, from), error(End::Finish, to)]),
         levels: Vec::new(),
-        spacing: respaced.map_or(Spacing::Parameter, Respaced::spacing),
+        spacing: respaced.map_or(Spacing::Parameter, |it| it.spacing),
         corrections,
         polygon,
     };

@@ -8,6 +8,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
 use crate::geometry::nearest::refined_parameter;
 use crate::geometry::progress::Progress;
+use crate::geometry::vector;
 
 /// Samples a segment at which distances are measured.
 const SAMPLES: usize = 16;
@@ -45,21 +46,9 @@ impl MeasuredDeviation {
     /// as `reach` if it has points there.
     ///
     /// # Errors
-    /// [`ApproximationError::NotFinite`] where the other curve has no points.
+    /// [`ApproximationError::NotFinite`] where the other curve has no points;
+    /// [`ApproximationError::Cancelled`] soon after a cancellation.
     pub fn measure(
-        polygon: &FloatPolygon,
-        curve: &dyn Differentiable,
-        parameter: &dyn Fn(f64) -> f64,
-        reach: [f64; 2],
-    ) -> Result<Self, ApproximationError> {
-        Self::measure_cancellably(polygon, curve, parameter, reach, &Progress::default())
-    }
-
-    /// Measure as [`MeasuredDeviation::measure`] does, and stop soon after a cancellation.
-    ///
-    /// # Errors
-    /// As [`MeasuredDeviation::measure`]; [`ApproximationError::Cancelled`].
-    pub fn measure_cancellably(
         polygon: &FloatPolygon,
         curve: &dyn Differentiable,
         parameter: &dyn Fn(f64) -> f64,
@@ -259,10 +248,7 @@ impl Block {
         let last = (first + BLOCK).min(samples.len() - 1);
         let samples = &samples[first..=last];
         let steps = samples.windows(2).map(|step| step[0].1.distance(step[1].1));
-        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) = samples.iter().fold(start, |(low, high), (_, point)| {
-            (low.min(*point), high.max(*point))
-        });
+        let (low, high) = vector::bounds(samples.iter().map(|(_, point)| point));
         Self {
             first,
             low,

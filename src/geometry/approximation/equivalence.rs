@@ -7,7 +7,9 @@ use crate::geometry::curvature_levels::{CurvatureLevels, LEVEL_ORDER, LEVELS};
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::polygon_figures::Range;
+use crate::geometry::root::root;
 use crate::geometry::segment_expansion::SegmentExpansion;
+use crate::geometry::vector;
 
 /// Samples a segment at which levels are compared.
 const SAMPLES: usize = 32;
@@ -91,9 +93,6 @@ impl LevelComparison {
 
 /// A feature of the curve that is approximated and one of the approximation.
 pub type SideBySide = (Option<(f64, LevelFeature)>, Option<(f64, LevelFeature)>);
-
-/// Halvings of the step between two samples that holds a feature: to the last digit.
-const HALVINGS: usize = 50;
 
 /// Precision of the places of features.
 #[derive(Clone, Copy, PartialEq)]
@@ -249,8 +248,7 @@ fn rounding(
     length: f64,
     curvature: f64,
 ) -> f64 {
-    let reach = polygon.vertices().iter();
-    let reach = reach.fold(0.0_f64, |most, vertex| most.max(vertex.abs().max_element()));
+    let reach = vector::reach(polygon.vertices());
     let speed = length / polygon.segments() as f64;
     let order = 2 * level + usize::from(torsion);
     let moved = f64::EPSILON * reach * (2.0 / speed).powi(order as i32);
@@ -297,7 +295,7 @@ fn refined(
         _ => index.checked_sub(1).map(|before| [before, index + 1]),
     };
     let bracket = bracket.filter(|[_, after]| *after < parameters.len());
-    let Some([mut low, mut high]) = bracket.map(|it| it.map(|index| parameters[index])) else {
+    let Some([low, high]) = bracket.map(|it| it.map(|index| parameters[index])) else {
         return own;
     };
     let rising = |place: f64| {
@@ -313,15 +311,7 @@ fn refined(
     if !(first * last < 0.0) {
         return own;
     }
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if rising(middle).is_some_and(|it| it * first > 0.0) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
+    root([low, high], 0.0, |place| rising(place).unwrap_or(last))
 }
 
 /// Whether values differ by no more than `least`.

@@ -17,7 +17,7 @@ pub use approximating::{
 pub use deviation::MeasuredDeviation;
 pub use equivalence::{LevelComparison, LevelFeature, SideBySide};
 pub use error::ApproximationError;
-pub use fitting::{FitAsked, FitError, Fitted, fit_points};
+pub use fitting::{FitError, FitRequest, Fitted, fit_points};
 pub use knots::UniformKnots;
 pub use placing::{Corrections, Placing, float_polygon};
 pub use spacing::{Respaced, Spacing};

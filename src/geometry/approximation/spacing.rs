@@ -31,7 +31,7 @@ pub enum Spacing {
 
 /// A curve by a parameter v in \[0, 1\] that grows evenly with arc length, or with arc length and turning.
 pub struct Respaced<'a> {
-    spacing: Spacing,
+    pub(super) spacing: Spacing,
     curve: &'a dyn Differentiable,
     /// The length r; 0 where arc length alone counts.
     radius: f64,
@@ -53,10 +53,6 @@ impl<'a> Respaced<'a> {
         respaced
             .then(|| Self::new(curve, interval, spacing))
             .transpose()
-    }
-
-    pub(super) fn spacing(&self) -> Spacing {
-        self.spacing
     }
 
     /// Measure a curve between two of its parameters.
@@ -175,10 +171,7 @@ impl<'a> Respaced<'a> {
     /// The series of |C′| and of its square times the square of the turning: |C′ × C″|²/|C′|⁴.
     fn rates(&self, t: f64, order: usize) -> (PowerSeries, PowerSeries) {
         let values = self.curve.derivatives(t, order + 2);
-        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
-            let series = PowerSeries::of_derivatives(values.iter().map(|value| value.dot(axis)));
-            series.derivative()
-        });
+        let [x, y, z] = PowerSeries::coordinates(&values).map(|series| series.derivative());
         let bends = [&x, &y, &z].map(PowerSeries::derivative);
         let squares = &(&(&x * &x) + &(&y * &y)) + &(&z * &z);
         let crossed = |a: &PowerSeries, b: &PowerSeries, c: usize, d: usize| {
@@ -213,10 +206,6 @@ impl Differentiable for Respaced<'_> {
             inner = slope.antiderivative(t, known + 1);
         }
         let values = self.curve.derivatives(t, order);
-        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
-            let series = PowerSeries::of_derivatives(values.iter().map(|value| value.dot(axis)));
-            series.composed(&inner)
-        });
-        PowerSeries::derivatives([&x, &y, &z])
+        PowerSeries::reparametrised(&values, &inner)
     }
 }

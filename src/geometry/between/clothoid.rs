@@ -6,8 +6,8 @@
 
 use glam::DVec2;
 
-use super::root::root;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
+use crate::geometry::root::root;
 
 /// Steps of the search for a root.
 const STEPS: usize = 64;

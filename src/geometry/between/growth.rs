@@ -22,7 +22,7 @@ pub(super) struct ByGrowth<'a> {
 impl<'a> ByGrowth<'a> {
     /// Pass through a segment of one log-aesthetic part evenly by ln ρ; `None` for others.
     pub(super) fn of(parts: &'a Parts) -> Option<Self> {
-        let [part] = parts.parts() else {
+        let [part] = &parts.parts[..] else {
             return None;
         };
         let ReferenceForm::Analytic(form) = part.curve.form() else {
@@ -41,7 +41,7 @@ impl<'a> ByGrowth<'a> {
 
     /// The arc length from the start that belongs to v.
     pub(super) fn arc_length(&self, v: f64) -> f64 {
-        self.parts.end() * (self.change * v).exp_m1() / self.change.exp_m1()
+        self.parts.end * (self.change * v).exp_m1() / self.change.exp_m1()
     }
 }
 
@@ -49,15 +49,11 @@ impl Differentiable for ByGrowth<'_> {
     fn derivatives(&self, v: f64, order: usize) -> Vec<DVec3> {
         let s = self.arc_length(v);
         let change = self.change;
-        let rate = self.parts.end() * change * (change * v).exp() / change.exp_m1();
+        let rate = self.parts.end * change * (change * v).exp() / change.exp_m1();
         let mut powers = vec![s];
         powers.extend((0..order).map(|k| rate * change.powi(k as i32)));
         let inner = PowerSeries::of_derivatives(powers.into_iter());
         let values = self.parts.derivatives(s, order);
-        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| {
-            let series = PowerSeries::of_derivatives(values.iter().map(|value| value.dot(axis)));
-            series.composed(&inner)
-        });
-        PowerSeries::derivatives([&x, &y, &z])
+        PowerSeries::reparametrised(&values, &inner)
     }
 }

@@ -13,9 +13,9 @@
 
 use glam::DVec2;
 
-use super::root::root;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
 use crate::geometry::references::log_aesthetic::{lambda_and_length, relative_exponential};
+use crate::geometry::root::root;
 
 /// Largest growth of ln ρ: radii a million times apart.
 const MOST_GROWTH: f64 = 13.8;

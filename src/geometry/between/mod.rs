@@ -15,7 +15,6 @@ mod log_aesthetic;
 mod pair;
 mod parts;
 mod polygon;
-mod root;
 mod segment;
 mod solving;
 mod superspiral;

@@ -25,11 +25,11 @@ pub struct Part {
 /// where theirs is.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Parts {
-    parts: Vec<Part>,
+    pub(super) parts: Vec<Part>,
     /// The start of each.
     begins: Vec<f64>,
     /// The end of the last.
-    end: f64,
+    pub(super) end: f64,
 }
 
 impl Parts {
@@ -76,21 +76,6 @@ impl Parts {
             length
         });
         lengths.sum()
-    }
-
-    /// The parts, in order.
-    pub(super) fn parts(&self) -> &[Part] {
-        &self.parts
-    }
-
-    /// Take the parts out.
-    pub(super) fn into_parts(self) -> Vec<Part> {
-        self.parts
-    }
-
-    /// The end of the parameter, which begins at 0.
-    pub(super) fn end(&self) -> f64 {
-        self.end
     }
 }
 

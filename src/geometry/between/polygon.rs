@@ -56,7 +56,7 @@ pub(super) fn fit(
         tolerance,
         progress,
     };
-    let own = search.closest(parts, parts.end(), &|t| t);
+    let own = search.closest(parts, parts.end, &|t| t);
     let reached = |fit: &Fit| fit.deviation <= tolerance && fit.monotone == Verdict::Proved;
     let found = match own {
         Err(BetweenError::Cancelled) => return own,
@@ -106,7 +106,7 @@ impl Search<'_> {
         if let Some(grown) = ByGrowth::of(parts) {
             return self.closest(&grown, 1.0, &|v| grown.arc_length(v));
         }
-        let respaced = Respaced::new(parts, [0.0, parts.end()], Spacing::Curvature)?;
+        let respaced = Respaced::new(parts, [0.0, parts.end], Spacing::Curvature)?;
         self.closest(&respaced, 1.0, &|v| respaced.near(v))
     }
 
@@ -205,7 +205,7 @@ fn deviation(
     polygon: &FloatPolygon,
     parameter: &dyn Fn(f64) -> f64,
 ) -> Result<f64, ApproximationError> {
-    let interval = [0.0, parts.end()];
-    let measured = MeasuredDeviation::measure(polygon, parts, parameter, interval)?;
+    let (interval, progress) = ([0.0, parts.end], Progress::default());
+    let measured = MeasuredDeviation::measure(polygon, parts, parameter, interval, &progress)?;
     Ok(measured.largest)
 }

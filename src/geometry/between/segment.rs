@@ -114,7 +114,7 @@ pub fn between(
     let tolerance = allowed(parts.as_ref().map_or(length, Parts::length));
     Ok(Segment {
         arc: parts.as_ref().is_some_and(Parts::is_arc),
-        parts: parts.map_or_else(Vec::new, |parts| parts.into_parts()),
+        parts: parts.map_or_else(Vec::new, |parts| parts.parts),
         residual,
         deviation,
         tolerance,

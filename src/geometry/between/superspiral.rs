@@ -10,10 +10,10 @@ use glam::DVec2;
 use super::ends::{Task, angle};
 use super::error::BetweenError;
 use super::parts::{Part, Parts};
-use super::root::root;
 use super::solving::{CHORD, check_curvatures, inflection, out_of_reach};
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::references::{AnalyticForm, ReferenceCurve, ReferenceForm, superspiral};
+use crate::geometry::root::root;
 
 /// Where a segment may begin, the direction angle of the spiral: earlier it has hardly a finite radius, later
 /// it is all but a circular arc.
@@ -59,6 +59,6 @@ pub(super) fn superspiral_parts(task: &Task, values: [f64; 3]) -> Result<Parts, 
     let placement = task.placement(own, CHORD, reversed)?;
     let curve = spiral.over(interval)?.placed(placement);
     let parts = Parts::new(vec![Part { curve, reversed }]);
-    check_curvatures(task, [0.0, parts.end()].map(|t| parts.curvature(t)))?;
+    check_curvatures(task, [0.0, parts.end].map(|t| parts.curvature(t)))?;
     Ok(parts)
 }

@@ -39,10 +39,7 @@ pub(in crate::geometry) fn chain_deviation(given: &ExactVertices<2>, float: &Flo
 
 /// Find the largest coordinate of the vertices' points.
 pub(in crate::geometry) fn reach<const K: usize>(vertices: &ExactVertices<K>) -> f64 {
-    let points = (0..vertices.len()).map(|index| vertices.rounded(index).0);
-    points
-        .map(|point| point.abs().max_element())
-        .fold(0.0, f64::max)
+    vector::reach((0..vertices.len()).map(|index| vertices.rounded(index).0))
 }
 
 fn polynomial(given: &ExactVertices<2>, found: &ExactVertices<2>) -> f64 {

@@ -29,8 +29,7 @@ pub(in crate::geometry) fn worst_difference(
     given: &ControlPolygon,
     exact: &ControlPolygon,
 ) -> (usize, f64) {
-    let reach = given.vertices().iter().map(|v| v.abs().max_element());
-    let scale = reach.fold(0.0, f64::max);
+    let scale = vector::reach(given.vertices());
     let pairs = given.weighted_vertices().zip(exact.weighted_vertices());
     let distances = pairs.map(|((found, weight), (expected, exact))| {
         let quotient = weight / exact;

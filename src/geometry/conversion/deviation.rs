@@ -104,20 +104,20 @@ pub(in crate::geometry) fn from_part(
             difference(&restricted(whole, low - origin, high - origin), &here)
         })
     });
-    let allowance = ROUNDINGS * largest(curve.vertices()).max(largest(part.vertices()));
+    let allowance = ROUNDINGS * vector::reach(curve.vertices()).max(vector::reach(part.vertices()));
     largest_norm(pieces, allowance) + allowance
 }
 
 /// Bound the distance between two chains of as many Bézier polygons.
 pub(in crate::geometry) fn between_chains(a: &BezierPolygon, b: &BezierPolygon) -> f64 {
     let pairs = pieces(a).zip(pieces(b));
-    let allowance = ROUNDINGS * largest(a.vertices()).max(largest(b.vertices()));
+    let allowance = ROUNDINGS * vector::reach(a.vertices()).max(vector::reach(b.vertices()));
     largest_norm(pairs.map(|(a, b)| difference(&a, &b)), allowance) + allowance
 }
 
 /// Bound the largest distance of a chain's curve from the origin.
 fn reach_of_chain(chain: &BezierPolygon) -> f64 {
-    let rounding = ROUNDINGS * largest(chain.vertices());
+    let rounding = ROUNDINGS * vector::reach(chain.vertices());
     largest_norm(pieces(chain), 0.0) + rounding
 }
 
@@ -227,12 +227,7 @@ fn differences(a: &[DVec3], b: &[DVec3]) -> Vec<DVec3> {
 /// What rounding differences of vertices may move the curve by: as a mean of vertices it moves no
 /// further than they do. Vertices of high degree may be far apart though the curves are near.
 fn rounding_of(differences: &[DVec3]) -> f64 {
-    f64::EPSILON * largest(differences)
-}
-
-fn largest(points: &[DVec3]) -> f64 {
-    let reach = points.iter().map(|point| point.abs().max_element());
-    reach.fold(0.0, f64::max)
+    f64::EPSILON * vector::reach(differences)
 }
 
 fn different_knots(segments: usize, other: usize) -> PolygonError {

@@ -364,8 +364,7 @@ impl<'a> Correction<'a> {
     /// Whether every target is met, but for rounding.
     fn is_met(&self, polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> bool {
         let size = self.polygon.size();
-        let reach = polygon.vertices().iter().map(|v| v.abs().max_element());
-        let scale = reach.fold(size, f64::max);
+        let scale = size.max(vector::reach(polygon.vertices()));
         targets.iter().all(|(end, target)| {
             let left = EndDifference::between(polygon, *end, target);
             let placed = EndDifference {

@@ -25,7 +25,7 @@ impl<'a> LeastSquares<'a> {
     /// Add a residual with its gradient by the vertices.
     pub(super) fn add(&mut self, residual: f64, gradient: &[(usize, DVec3)]) {
         let unknowns = self.unknowns;
-        let axes = unknowns.axes();
+        let axes = unknowns.axes;
         let moving = || {
             let terms = gradient.iter();
             terms.filter_map(|(vertex, slope)| Some((unknowns.first(*vertex)?, slope)))
@@ -50,7 +50,7 @@ impl<'a> LeastSquares<'a> {
 
     /// Add a residual vector of a combination of vertices.
     pub(super) fn add_vector(&mut self, residual: DVec3, stencil: &[(usize, f64)]) {
-        for axis in 0..self.unknowns.axes() {
+        for axis in 0..self.unknowns.axes {
             let along = |(vertex, weight): &(usize, f64)| (*vertex, *weight * DVec3::AXES[axis]);
             let gradient: Vec<(usize, DVec3)> = stencil.iter().map(along).collect();
             self.add(residual[axis], &gradient);

@@ -252,7 +252,7 @@ impl PointFit<'_> {
             let mut row = vec![0.0; self.unknowns.len()];
             for (vertex, slope) in gradient {
                 let place = self.unknowns.first(vertex).unwrap_or_default();
-                for axis in 0..self.unknowns.axes() {
+                for axis in 0..self.unknowns.axes {
                     row[place + axis] += slope[axis];
                 }
             }
@@ -275,7 +275,7 @@ impl PointFit<'_> {
             let distance = |sign: &&SlopeSign| (sign.u - u).abs();
             let nearest = self.signs[..known].iter();
             let nearest = nearest.min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            let rises = nearest.is_some_and(SlopeSign::rises);
+            let rises = nearest.is_some_and(|sign| sign.rises);
             let sign = SlopeSign::new(&near.polygon, segment, t, rises);
             if sign.slope(near.polygon.vertices(), self.planar).0 < 0.0 {
                 self.signs.push(sign);
@@ -289,12 +289,12 @@ impl PointFit<'_> {
     /// Move turns to the side where the conditions press: the sample beside a turn whose condition is active
     /// goes over to the other run, unless it is the last of its own.
     fn move_turns(&mut self) {
-        let rises: Vec<bool> = self.signs.iter().map(SlopeSign::rises).collect();
+        let rises: Vec<bool> = self.signs.iter().map(|sign| sign.rises).collect();
         let mut index = 1;
         while index < rises.len() {
             let (before, behind) = (index - 1, index);
             if rises[before] != rises[behind] {
-                let active = [before, behind].map(|sign| self.signs[sign].is_active());
+                let active = [before, behind].map(|sign| self.signs[sign].active);
                 let goes_on = |other: Option<&bool>, own: usize| other == Some(&rises[own]);
                 let earlier = before.checked_sub(1).and_then(|it| rises.get(it));
                 match active {

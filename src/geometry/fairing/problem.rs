@@ -414,7 +414,7 @@ impl<'a> Problem<'a> {
         let mut row = vec![0.0; self.unknowns.len()];
         for (vertex, slope) in gradient {
             if let Some(first) = self.unknowns.first(*vertex) {
-                for axis in 0..self.unknowns.axes() {
+                for axis in 0..self.unknowns.axes {
                     row[first + axis] += slope[axis];
                 }
             }

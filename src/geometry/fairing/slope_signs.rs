@@ -24,12 +24,12 @@ const JOINT: f64 = -0.5;
 pub(super) struct SlopeSign {
     pub(super) u: f64,
     /// Whether the curvature is to rise.
-    rises: bool,
+    pub(super) rises: bool,
     weights: JetWeights,
     /// What slopes are measured in: how far noise of the points moves this one.
     unit: f64,
     multiplier: f64,
-    active: bool,
+    pub(super) active: bool,
 }
 
 /// What a condition adds to a sum that is made small: half its value, and the derivatives of that by the slope.
@@ -51,16 +51,6 @@ impl SlopeSign {
             multiplier: 1.0,
             active: false,
         }
-    }
-
-    /// Whether the curvature is to rise here.
-    pub(super) fn rises(&self) -> bool {
-        self.rises
-    }
-
-    /// Whether the condition holds the curve back.
-    pub(super) fn is_active(&self) -> bool {
-        self.active
     }
 
     /// Ask for a sign.

@@ -12,7 +12,7 @@ pub(super) struct Unknowns {
     /// The vertices that may move, by place.
     vertices: Vec<usize>,
     /// Coordinates of a vertex: 2 in the plane.
-    axes: usize,
+    pub(super) axes: usize,
 }
 
 impl Unknowns {
@@ -42,11 +42,6 @@ impl Unknowns {
     /// The number of unknowns.
     pub(super) fn len(&self) -> usize {
         self.axes * self.vertices.len()
-    }
-
-    /// Unknown coordinates of a vertex.
-    pub(super) fn axes(&self) -> usize {
-        self.axes
     }
 
     /// The first unknown of a vertex, if it may move.

@@ -6,15 +6,13 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::flow::Sequence;
 use crate::geometry::banded::{BandedQr, BandedRow, difference_stencil};
+use crate::geometry::root::root;
 
 /// The order of the differences of the logarithms of legs.
 const LEG_ORDER: usize = 2;
 
 /// The weight of the numbers themselves: it decides only where differences leave them free.
 const RIDGE: f64 = 1e-9;
-
-/// The most steps towards a turning angle.
-const MOST_STEPS: usize = 60;
 
 /// The largest turning angle.
 const LARGEST_TURN: f64 = 0.95 * PI;
@@ -189,15 +187,7 @@ fn turning_angle(curvature: f64, a: f64, b: f64) -> f64 {
         low = high;
         high += 0.01 * PI;
     }
-    for _ in 0..MOST_STEPS {
-        let middle = 0.5 * (low + high);
-        if missing(middle) < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high.copysign(curvature)
+    root([low, high], 0.0, missing).copysign(curvature)
 }
 
 #[cfg(test)]

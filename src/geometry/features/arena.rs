@@ -35,8 +35,8 @@ pub(super) struct Arena<T> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polynomial {
     start: usize,
-    degree: usize,
-    vanishes: bool,
+    pub(super) degree: usize,
+    pub(super) vanishes: bool,
 }
 
 impl Polynomial {
@@ -46,16 +46,6 @@ impl Polynomial {
         degree: 0,
         vanishes: true,
     };
-
-    /// The degree that it is written with.
-    pub(super) fn degree(self) -> usize {
-        self.degree
-    }
-
-    /// Whether it is [`Polynomial::ZERO`].
-    pub(super) fn vanishes(self) -> bool {
-        self.vanishes
-    }
 
     fn range(self) -> std::ops::Range<usize> {
         self.start..self.start + self.degree + 1

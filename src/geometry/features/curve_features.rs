@@ -52,54 +52,47 @@ impl Features {
         };
         let planar = polygon.is_planar();
         let mut singular: Vec<_> = features.cusps.iter().map(|cusp| cusp.u).collect();
-        let quantity = Feature::Inflection;
-        let walk = assembly.walk(quantity);
-        let found = assembly.find(quantity, &walk, &singular);
-        let found = features.decide(&assembly, quantity, (&walk, found), &singular);
+        let found = features.decide(&assembly, Feature::Inflection, &singular);
         features.inflections = found.iter().map(root).collect();
         let quantity = Feature::CurvatureExtremum;
-        let walk = assembly.walk(quantity);
-        let found = assembly.find(quantity, &walk, &singular);
-        features.trends = trends(&walk.runs, &found, &features.cusps, count as f64);
-        let found = features.decide(&assembly, quantity, (&walk, found), &singular);
-        let extrema = found.iter().map(|found| assembly.extremum(found, quantity));
-        features.curvature_extrema = extrema.collect();
+        let found = features.decide(&assembly, quantity, &singular);
+        features.curvature_extrema = assembly.extrema(&found, quantity);
         features.monotone = features.verdict();
         if !planar {
-            let quantity = Feature::TorsionZero;
-            let walk = assembly.walk(quantity);
-            let found = assembly.find(quantity, &walk, &singular);
-            let found = features.decide(&assembly, quantity, (&walk, found), &singular);
+            let found = features.decide(&assembly, Feature::TorsionZero, &singular);
             features.torsion_zeros = found.iter().map(root).collect();
             let flat = assembly.flat_knots();
             singular.extend(&flat);
             let quantity = Feature::TorsionExtremum;
-            let walk = assembly.walk(quantity);
-            let found = assembly.find(quantity, &walk, &singular);
-            let found = features.decide(&assembly, quantity, (&walk, found), &singular);
-            let extrema = found.iter().map(|found| assembly.extremum(found, quantity));
-            features.torsion_extrema = extrema.collect();
+            let found = features.decide(&assembly, quantity, &singular);
+            features.torsion_extrema = assembly.extrema(&found, quantity);
             features.doubt_jumps(&flat);
         }
         features
     }
 
-    /// Join the changes of a sign that doubles cannot tell apart. Those at a singular place, or at
+    /// Find the changes of a feature's sign, and the trends of the curvature between those of its slope.
+    /// Those that doubles cannot tell apart are joined. Those at a singular place, or at
     /// an end of an undecided piece, which may hold another change, are added to the undecided
     /// pieces instead, together with the walk's own.
-    fn decide<'a>(
+    fn decide(
         &mut self,
         assembly: &Assembly,
         quantity: Feature,
-        (walk, mut found): (&SignWalk, Vec<ChangeInterval<'a>>),
         singular: &[[f64; 2]],
-    ) -> Vec<ChangeInterval<'a>> {
+    ) -> Vec<ChangeInterval> {
+        let walk = assembly.walk(quantity);
+        let mut found = assembly.find(quantity, &walk, singular);
+        if quantity == Feature::CurvatureExtremum {
+            let end = assembly.segments.len() as f64;
+            self.trends = trends(&walk.runs, &found, &self.cusps, end);
+        }
         let doubt = |u, certain| Undecided {
             u,
             quantity,
             certain,
         };
-        let doubts = assembly.doubts(walk);
+        let doubts = assembly.doubts(&walk);
         found.retain(|found| {
             let is_singular = assembly.touches(singular, found.u);
             let is_doubtful = is_singular || assembly.touches(&doubts, found.u);
@@ -203,15 +196,15 @@ impl Assembly<'_> {
 
     /// Find the intervals of the changes of a sign, in the order of u. Roots that touch another
     /// one, a singular place or an undecided piece are narrowed.
-    fn find<'a>(
+    fn find(
         &self,
         quantity: Feature,
-        walk: &'a SignWalk,
+        walk: &SignWalk,
         singular: &[[f64; 2]],
-    ) -> Vec<ChangeInterval<'a>> {
+    ) -> Vec<ChangeInterval> {
         let changes = walk.changes.iter();
         let mut found: Vec<_> = changes
-            .map(|change| ChangeInterval::new(change, self.interval(change.places)))
+            .map(|change| ChangeInterval::new(*change, self.interval(change.places)))
             .collect();
         // A walk round a periodic curve sees its joint last: a change at the joint itself comes
         // before a root whose interval begins there.
@@ -298,6 +291,11 @@ impl Assembly<'_> {
         } else {
             [low, high]
         }
+    }
+
+    fn extrema(&self, found: &[ChangeInterval], quantity: Feature) -> Vec<Extremum> {
+        let found = found.iter();
+        found.map(|found| self.extremum(found, quantity)).collect()
     }
 
     fn extremum(&self, found: &ChangeInterval, quantity: Feature) -> Extremum {

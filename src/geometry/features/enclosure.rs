@@ -66,7 +66,7 @@ pub(super) fn at_place(
 /// Bound a polynomial in scaled form at an end, where its binomial coefficient is 1.
 fn end_value(arena: &Arena<f64>, polynomial: Polynomial, at_end: bool) -> Enclosure {
     let (values, errors) = arena.coefficients(polynomial);
-    let index = if at_end { polynomial.degree() } else { 0 };
+    let index = if at_end { polynomial.degree } else { 0 };
     let (value, error) = values
         .get(index)
         .zip(errors.get(index))

@@ -45,9 +45,9 @@ impl Ring for WholeNumbers {
 /// Hold the homogeneous derivatives H, H′, … H⁗ of a segment, all times one positive number.
 #[derive(Debug)]
 pub(super) struct ExactSegment {
-    planar: bool,
+    pub(super) planar: bool,
     /// The length that is 1 here.
-    unit: Floating,
+    pub(super) unit: Floating,
     derivatives: Derivatives<ExactPolynomial>,
     flat: OnceCell<Option<ExactPolynomial>>,
 }
@@ -156,16 +156,6 @@ impl ExactSegment {
     pub(super) fn flat(&self) -> Option<&ExactPolynomial> {
         let find = || ExactPolynomial::shared_roots(self.normal(2).iter());
         self.flat.get_or_init(find).as_ref()
-    }
-
-    /// Whether curvature has a sign.
-    pub(super) fn is_planar(&self) -> bool {
-        self.planar
-    }
-
-    /// The length that is 1 here.
-    pub(super) fn unit(&self) -> Floating {
-        self.unit
     }
 
     /// W.

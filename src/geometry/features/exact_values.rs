@@ -34,7 +34,7 @@ impl ExactSegment {
     /// Whether the curvature of a space curve is 0 at an only place between two others.
     pub(super) fn is_flat_between(&self, ends: [f64; 2]) -> bool {
         let interval = Interval::new(ends);
-        !self.is_planar() && self.flat().is_some_and(|flat| interval.parts_signs(flat))
+        !self.planar && self.flat().is_some_and(|flat| interval.parts_signs(flat))
     }
 
     /// Enclose the curvature or torsion at the extremum that lies between two places, which are
@@ -45,7 +45,7 @@ impl ExactSegment {
         let mut best = UNKNOWN;
         let mut simple = None;
         loop {
-            if let Some((bounds, error)) = parts.enclose(&interval, self.unit()) {
+            if let Some((bounds, error)) = parts.enclose(&interval, self.unit) {
                 best = bounds;
                 if error <= ENOUGH {
                     break;
@@ -89,7 +89,7 @@ impl Parts {
     fn new(segment: &ExactSegment, quantity: Feature) -> Self {
         let (form, numerator, below) = match quantity {
             Feature::TorsionExtremum => (Form::Torsion, segment.torsion(3), segment.bending(2)),
-            _ if segment.is_planar() => (Form::Planar, segment.bend(2), segment.speed(1)),
+            _ if segment.planar => (Form::Planar, segment.bend(2), segment.speed(1)),
             _ => (Form::Spatial, segment.bending(2), segment.speed(1)),
         };
         Self {

@@ -144,7 +144,7 @@ impl Search<'_> {
     fn signs(&mut self, function: Function) -> (Vec<SignPiece>, Tier) {
         let mut pieces = Vec::new();
         let polynomial = self.quick.of(function);
-        if polynomial.vanishes() {
+        if polynomial.vanishes {
             append(&mut pieces, Sign::Zero, 1.0);
             return (pieces, Tier::Exact);
         }
@@ -247,7 +247,7 @@ impl Search<'_> {
         for (end, t) in [(0_usize, 0.0), (1, 1.0)] {
             let may_vanish = self.quick.tangent.iter().all(|component| {
                 let (values, errors) = self.prover.quick.coefficients(*component);
-                let index = end * component.degree();
+                let index = end * component.degree;
                 let end = values.get(index).zip(errors.get(index));
                 end.is_none_or(|(value, error)| {
                     !matches!(certain_sign(*value, *error), Some(1 | -1))

@@ -12,20 +12,20 @@ use crate::geometry::whole_numbers::fraction;
 
 /// Hold changes of sign that one interval of u holds.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ChangeInterval<'a> {
+pub(super) struct ChangeInterval {
     /// The interval.
     pub(super) u: [f64; 2],
     /// Their number.
     pub(super) count: usize,
     /// The first one.
-    pub(super) change: &'a Change,
+    pub(super) change: Change,
     /// Whether the interval was narrowed beyond that of the places.
     pub(super) is_narrow: bool,
 }
 
-impl<'a> ChangeInterval<'a> {
+impl ChangeInterval {
     /// Hold one change, with the interval of u of its places.
-    pub(super) fn new(change: &'a Change, u: [f64; 2]) -> Self {
+    pub(super) fn new(change: Change, u: [f64; 2]) -> Self {
         Self {
             u,
             count: change.count,
@@ -66,9 +66,9 @@ impl<'a> ChangeInterval<'a> {
 /// Narrow the intervals that touch the next one: of a curve with a joint at `joint`, the last
 /// and the first as well.
 pub(super) fn narrow_neighbours(
-    found: &mut [ChangeInterval<'_>],
+    found: &mut [ChangeInterval],
     joint: Option<f64>,
-    narrow: impl Fn(&mut ChangeInterval<'_>),
+    narrow: impl Fn(&mut ChangeInterval),
 ) {
     for index in 1..found.len() {
         if let [first, second] = &mut found[index - 1..=index]
@@ -87,7 +87,7 @@ pub(super) fn narrow_neighbours(
 }
 
 /// Join intervals that touch: doubles of u cannot tell their features apart.
-pub(super) fn join_neighbours(found: &mut Vec<ChangeInterval<'_>>, joint: Option<f64>) {
+pub(super) fn join_neighbours(found: &mut Vec<ChangeInterval>, joint: Option<f64>) {
     found.dedup_by(|next, last| {
         let touch = last.u[1] >= next.u[0];
         if touch {

@@ -13,7 +13,7 @@ use super::sign_walk::{Place, Run};
 /// joint of a periodic curve, goes on at the start.
 pub(super) fn trends(
     runs: &[Run],
-    found: &[ChangeInterval<'_>],
+    found: &[ChangeInterval],
     cusps: &[Cusp],
     end: f64,
 ) -> Vec<TrendPiece> {
@@ -33,7 +33,7 @@ pub(super) fn trends(
 /// List runs with their intervals of u, which reach as far as the roots beside them.
 fn with_intervals<'a>(
     runs: &'a [Run],
-    found: &[ChangeInterval<'_>],
+    found: &[ChangeInterval],
 ) -> impl Iterator<Item = (&'a Run, [f64; 2])> {
     let narrowed = found.iter().filter(|found| found.is_narrow);
     let narrowed = narrowed.map(|found| (key(found.change.places[0]), found.u));

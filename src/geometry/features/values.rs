@@ -35,7 +35,7 @@ pub(super) fn at_extremum<T: Scalar>(
     let value = |polynomial: Polynomial| {
         let (value, error) = arena.evaluate(polynomial, ends[0]);
         // The power that the value comes with is rounded.
-        let error = error + value.abs() * f64::EPSILON * (polynomial.degree() as f64 + 2.0);
+        let error = error + value.abs() * f64::EPSILON * (polynomial.degree as f64 + 2.0);
         widened([value - error, value + error])
     };
     let [curvature, torsion] = at_place(value, numerators, (shape, planar));
@@ -80,5 +80,5 @@ pub(super) fn at_extremum<T: Scalar>(
 
 /// Bound the derivative of a polynomial in scaled form on \[0, 1\].
 fn slope_bound<T: Scalar>(arena: &Arena<T>, polynomial: Polynomial) -> f64 {
-    2.0 * polynomial.degree() as f64 * arena.bound(polynomial) * ROUNDING
+    2.0 * polynomial.degree as f64 * arena.bound(polynomial) * ROUNDING
 }

@@ -86,11 +86,7 @@ impl Regularity {
 impl Legs {
     /// The vertices themselves, in a unit in which products of them are numbers.
     fn vertices(polygon: &FloatPolygon) -> Self {
-        let sizes = polygon
-            .vertices()
-            .iter()
-            .map(|vertex| vertex.abs().max_element());
-        let largest = sizes.fold(0.0, f64::max);
+        let largest = vector::reach(polygon.vertices());
         let unit = vector::scaled(DVec3::splat(largest)).1;
         Self {
             vectors: polygon

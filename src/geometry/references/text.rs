@@ -100,31 +100,43 @@ fn analytic(
     assignments: &[Assignment<'_>],
 ) -> Result<(ReferenceForm, [Option<f64>; 2]), ReferenceTextError> {
     let mut values = kind.defaults();
-    let mut interval = [None; 2];
-    for Assignment { name, value } in assignments {
-        let number = value.number()?;
-        if let Some(end) = INTERVAL.iter().position(|known| *known == name.text) {
-            interval[end] = Some(number);
-            continue;
-        }
-        let mut parameters = kind.parameters.iter();
-        let Some(index) = parameters.position(|it| it.name == name.text) else {
-            let known = kind.parameters.iter().map(|it| it.name);
-            return Err(name.error(ReferenceError::NoSuchParameter {
-                kind: kind.name,
-                name: name.text.to_owned(),
-                known: list(known.chain(INTERVAL)),
-            }));
-        };
-        let parameter = &kind.parameters[index];
+    let names: Vec<&str> = kind.parameters.iter().map(|it| it.name).collect();
+    let interval = assigned(kind.name, &names, assignments, |index, value| {
+        let (number, parameter) = (value.number()?, &kind.parameters[index]);
         let checked = parameter.kind.check(parameter.label, number);
         checked.map_err(|error| value.error(error.into()))?;
         values[index] = number;
-    }
+        Ok(())
+    })?;
     // Every value is checked already.
     let form =
         AnalyticForm::new(kind, values).map_err(|error| ReferenceTextError { column: 1, error })?;
     Ok((ReferenceForm::Analytic(form), interval))
+}
+
+/// Take the values of known names, by the index of the name, and the ends of the interval that are given.
+fn assigned(
+    kind: &'static str,
+    names: &[&str],
+    assignments: &[Assignment<'_>],
+    mut take: impl FnMut(usize, &Part<'_>) -> Result<(), ReferenceTextError>,
+) -> Result<[Option<f64>; 2], ReferenceTextError> {
+    let mut interval = [None; 2];
+    for Assignment { name, value } in assignments {
+        let position = |known: &[&str]| known.iter().position(|it| *it == name.text);
+        if let Some(end) = position(&INTERVAL) {
+            interval[end] = Some(value.number()?);
+        } else if let Some(index) = position(names) {
+            take(index, value)?;
+        } else {
+            return Err(name.error(ReferenceError::NoSuchParameter {
+                kind,
+                name: name.text.to_owned(),
+                known: list(names.iter().copied().chain(INTERVAL)),
+            }));
+        }
+    }
+    Ok(interval)
 }
 
 /// Read formulas, and the ends of the interval that are given.
@@ -133,22 +145,11 @@ fn formula(
     assignments: &[Assignment<'_>],
 ) -> Result<(ReferenceForm, [Option<f64>; 2]), ReferenceTextError> {
     let mut coordinates: [Option<Coordinate>; 3] = [None, None, None];
-    let mut interval = [None; 2];
-    for Assignment { name, value } in assignments {
-        if let Some(end) = INTERVAL.iter().position(|known| *known == name.text) {
-            interval[end] = Some(value.number()?);
-            continue;
-        }
-        let Some(index) = COORDINATES.iter().position(|it| *it == name.text) else {
-            return Err(name.error(ReferenceError::NoSuchParameter {
-                kind: FORMULA,
-                name: name.text.to_owned(),
-                known: list(COORDINATES.into_iter().chain(INTERVAL)),
-            }));
-        };
+    let interval = assigned(FORMULA, &COORDINATES, assignments, |index, value| {
         let coordinate = Coordinate::read(value.text).map_err(|mistake| value.shifted(mistake))?;
         coordinates[index] = Some(coordinate);
-    }
+        Ok(())
+    })?;
     let missing = |coordinate| whole.error(ReferenceError::NoCoordinate { coordinate });
     let [x, y, z] = coordinates;
     let x = x.ok_or_else(|| missing("x"))?;

@@ -91,7 +91,7 @@ impl LossSearch<'_> {
         let prover = RayProver::new(self.polygon, self.proved, vertex)?;
         let (from, limit) = (prover.centre, prover.limit);
         let mut trial = Trial {
-            origin: origin(self.polygon, prover.dependent()),
+            origin: origin(self.polygon, prover.prover.dependent()),
             period: self
                 .polygon
                 .is_periodic()
@@ -157,7 +157,7 @@ impl Trial {
     /// Find the distance along a ray at which the feature is lost first, if nothing is added before
     /// that.
     fn shortest(&mut self, direction: DVec2, within: f64) -> Option<f64> {
-        let mut known = self.places(self.prover.before());
+        let mut known = self.places(self.prover.prover.before());
         let mut own = nearest(&known, self.unrolled(self.u))?;
         let mut reached = 0.0;
         for distance in self.prover.tries(direction, within, STEPS) {
@@ -190,7 +190,7 @@ impl Trial {
     /// List the places of the features at a distance along a ray; `None` if any are added.
     fn allowed(&mut self, direction: DVec2, distance: f64) -> Option<Vec<f64>> {
         let after = self.prover.features(direction, distance)?;
-        let rise = FeatureRise::between(self.prover.before(), &after);
+        let rise = FeatureRise::between(self.prover.prover.before(), &after);
         rise.is_none().then(|| self.places(&after))
     }
 

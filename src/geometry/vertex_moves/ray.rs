@@ -44,7 +44,7 @@ pub fn reach(polygon: &FloatPolygon, vertex: usize) -> f64 {
 /// Proofs of a vertex's moves along rays from its place.
 #[derive(Debug)]
 pub(super) struct RayProver {
-    prover: MoveProver,
+    pub(super) prover: MoveProver,
     forecast: RayForecast,
     pub(super) centre: DVec3,
     pub(super) limit: f64,
@@ -67,16 +67,6 @@ impl RayProver {
             centre: polygon.vertex(vertex),
             limit: reach(polygon, vertex),
         })
-    }
-
-    /// The features of the curve as it was.
-    pub(super) fn before(&self) -> &Features {
-        self.prover.before()
-    }
-
-    /// The segments that depend on the vertex.
-    pub(super) fn dependent(&self) -> &[usize] {
-        self.prover.dependent()
     }
 
     /// The place of the vertex at a distance along a ray.

@@ -170,7 +170,7 @@ impl RegionSearch {
         };
         let after = self.prover.features(border.direction, distance);
         let rise = after.map_or(undecided, |after| {
-            FeatureRise::between(self.prover.before(), &after)
+            FeatureRise::between(self.prover.prover.before(), &after)
         });
         if rise.is_none() {
             border.safe = distance;

@@ -33,7 +33,7 @@ const SAMPLES: usize = 4;
 
 /// Request for a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FitAsked {
+pub struct FitRequest {
     /// The degree.
     pub degree: usize,
     /// The number of vertices; `None` for as many as the points or the tolerance call for.
@@ -80,7 +80,7 @@ pub struct Fitted {
 /// [`FitError`].
 pub fn fit_points(
     points: &[DVec3],
-    asked: &FitAsked,
+    asked: &FitRequest,
     progress: &Progress,
 ) -> Result<Fitted, FitError> {
     check(points, asked)?;
@@ -101,7 +101,7 @@ pub fn fit_points(
 }
 
 /// Check that there can be such a fit.
-fn check(points: &[DVec3], asked: &FitAsked) -> Result<(), FitError> {
+fn check(points: &[DVec3], asked: &FitRequest) -> Result<(), FitError> {
     let degree = asked.degree;
     check_size(degree, asked.count.unwrap_or(degree + 1), false)?;
     let differing = points.windows(2).filter(|pair| pair[0] != pair[1]);
@@ -141,7 +141,7 @@ fn vertices_for(extrema: usize, degree: usize) -> usize {
 
 struct Fit<'a> {
     list: &'a PointList<'a>,
-    asked: &'a FitAsked,
+    asked: &'a FitRequest,
     progress: &'a Progress,
     smoothing: Smoothing<'a>,
 }
@@ -149,7 +149,7 @@ struct Fit<'a> {
 impl Fit<'_> {
     /// The requested number of vertices, or else the best.
     fn count(&self, tolerance: Option<f64>) -> Result<usize, FitError> {
-        let best = || best_count(self.list, &self.smoothing, self.asked.degree, tolerance);
+        let best = || best_count(&self.smoothing, tolerance);
         self.asked.count.map_or_else(best, Ok)
     }
 
@@ -168,7 +168,7 @@ impl Fit<'_> {
     /// least from the best on with which it is about as near as noise allows.
     fn best_with_extrema(&self, extrema: usize) -> Result<Fitted, FitError> {
         let least = vertices_for(extrema, self.asked.degree);
-        let natural = best_count(self.list, &self.smoothing, self.asked.degree, None)?.max(least);
+        let natural = best_count(&self.smoothing, None)?.max(least);
         match self.asked.count {
             Some(count) => self.best_of_count(count, natural, extrema),
             None => self.best_of_many(natural, extrema),

@@ -8,4 +8,4 @@ mod smoothing;
 mod vertex_count;
 
 pub use error::FitError;
-pub use fit::{FitAsked, Fitted, fit_points};
+pub use fit::{FitRequest, Fitted, fit_points};

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::geometry::vector;
+
 /// Neighbours on either side that a point is compared with.
 const NEIGHBOURS: usize = 3;
 
@@ -21,10 +23,7 @@ pub(super) struct PointList<'a> {
 impl<'a> PointList<'a> {
     /// Take points, all of which count.
     pub(super) fn new(points: &'a [DVec3]) -> Self {
-        let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-        let (low, high) = points.iter().fold(start, |(low, high), point| {
-            (low.min(*point), high.max(*point))
-        });
+        let (low, high) = vector::bounds(points);
         let mut list = Self {
             points,
             counts: vec![true; points.len()],

@@ -21,8 +21,8 @@ const FACTOR: f64 = 10.0;
 
 /// Minimise Σ |C(uᵢ) − pᵢ|² + λ Σ |Δ³P|² over the points that count.
 pub(super) struct Smoothing<'a> {
-    list: &'a PointList<'a>,
-    degree: usize,
+    pub(super) list: &'a PointList<'a>,
+    pub(super) degree: usize,
     progress: &'a Progress,
 }
 

@@ -1,7 +1,6 @@
 //! Number of vertices that points need.
 
 use super::error::FitError;
-use super::point_list::PointList;
 use super::smoothing::Smoothing;
 
 /// Errors below this share of the points' size are rounding.
@@ -9,12 +8,8 @@ pub(super) const ROUNDING: f64 = 1e-12;
 
 /// Find the number of vertices that explains the points best for its size (Bayes' information criterion:
 /// Schwarz, 1978), or the least that keeps a tolerance; where none does, the one that comes nearest to it.
-pub(super) fn best_count(
-    list: &PointList,
-    smoothing: &Smoothing,
-    degree: usize,
-    tolerance: Option<f64>,
-) -> Result<usize, FitError> {
+pub(super) fn best_count(smoothing: &Smoothing, tolerance: Option<f64>) -> Result<usize, FitError> {
+    let (list, degree) = (smoothing.list, smoothing.degree);
     let (most, axes) = (list.points.len(), if list.planar { 1.0 } else { 2.0 });
     let mut count = degree + 1;
     let mut best = (f64::INFINITY, count);
