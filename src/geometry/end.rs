@@ -35,9 +35,7 @@ impl End {
             Self::Finish => Self::Start,
         }
     }
-}
 
-impl End {
     /// The parameter u of the end on an open curve.
     pub fn parameter(self, polygon: &FloatPolygon) -> f64 {
         match self {

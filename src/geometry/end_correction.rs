@@ -160,6 +160,17 @@ impl EndDifference {
     }
 }
 
+/// The largest [residual](EndDifference::residual) of a polygon's ends.
+pub(super) fn largest_residual(
+    polygon: &FloatPolygon,
+    targets: &[(End, EndTarget)],
+    size: f64,
+) -> f64 {
+    let left = targets.iter();
+    left.map(|(end, target)| EndDifference::between(polygon, *end, target).residual(size))
+        .fold(0.0, vector::larger)
+}
+
 /// Measure the angle from one direction to another in radians: in the plane z = 0 signed, left
 /// turns positive; in space not negative. 0 if either vector is zero.
 pub fn angle_between(from: DVec3, to: DVec3) -> f64 {
@@ -286,11 +297,7 @@ pub fn correct_in_turn(
     tolerance: f64,
 ) -> Result<LoopOutcome, PolygonError> {
     let size = polygon.size();
-    let residual = |polygon: &FloatPolygon| {
-        let ends = targets.iter();
-        ends.map(|(end, target)| EndDifference::between(polygon, *end, target).residual(size))
-            .fold(0.0, f64::max)
-    };
+    let residual = |polygon: &FloatPolygon| largest_residual(polygon, targets, size);
     let mut residuals = vec![residual(polygon)];
     let mut corrected = polygon.clone();
     let mut converged = residuals[0] <= tolerance;

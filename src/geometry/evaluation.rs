@@ -36,13 +36,7 @@ impl FloatPolygon {
     /// # Panics
     /// If the curve has no segment with this number.
     pub fn segment_jet(&self, segment: usize, t: f64) -> Jet {
-        let [point, first, second, third] = self.segment_derivatives(segment, t);
-        Jet {
-            point,
-            first,
-            second,
-            third,
-        }
+        Jet::from(self.segment_derivatives(segment, t))
     }
 
     /// Evaluate the point alone.

@@ -17,6 +17,18 @@ pub struct Jet {
     pub third: DVec3,
 }
 
+impl From<[DVec3; 4]> for Jet {
+    /// Hold a point and its first three derivatives.
+    fn from([point, first, second, third]: [DVec3; 4]) -> Self {
+        Self {
+            point,
+            first,
+            second,
+            third,
+        }
+    }
+}
+
 impl Jet {
     /// Compute the unit tangent, or `None` at a cusp (C′ = 0).
     pub fn tangent(&self) -> Option<DVec3> {

@@ -61,13 +61,7 @@ pub trait ParametricCurve {
     fn piece_jet(&self, piece: usize, t: f64) -> Jet {
         let mut values = [DVec3::ZERO; 4];
         self.fill_derivatives(piece, t, &mut values);
-        let [point, first, second, third] = values;
-        Jet {
-            point,
-            first,
-            second,
-            third,
-        }
+        Jet::from(values)
     }
 
     /// Evaluate the points and the derivatives up to `order` (at most 3) of one piece, at the even

@@ -74,12 +74,7 @@ impl Batch {
             let value = |axis: usize| self.values[first + axis * self.stride];
             DVec3::new(value(0), value(1), value(2))
         };
-        Jet {
-            point: vector(0),
-            first: vector(1),
-            second: vector(2),
-            third: vector(3),
-        }
+        Jet::from([0, 1, 2, 3].map(vector))
     }
 
     /// Fill in so many parameters, one after the other: `evaluate` is given the number of a parameter

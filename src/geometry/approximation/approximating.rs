@@ -59,22 +59,6 @@ impl ApproximationRequest {
             false => UniformKnots::between(self.degree, part, count),
         }
     }
-
-    /// The number of vertices of a number of segments.
-    fn vertices(&self, segments: usize) -> usize {
-        match self.periodic {
-            true => segments,
-            false => segments + self.degree,
-        }
-    }
-
-    /// The least number of segments that there can be.
-    fn least_segments(&self) -> usize {
-        match self.periodic {
-            true => self.degree + 1,
-            false => 1,
-        }
-    }
 }
 
 /// Goal of an approximation, and the means to reach it.
@@ -214,7 +198,10 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn run(&self, progress: &Progress) -> Result<Approximated, ApproximationError> {
-        let least = self.request.least_segments();
+        let least = match self.request.periodic {
+            true => self.request.degree + 1,
+            false => 1,
+        };
         let most_tried = self.goal.most_segments.max(least);
         let (mut too_few, mut segments, mut most) = (least - 1, least, most_tried);
         let mut best: Option<Result<Approximated, ApproximationError>> = None;
@@ -262,7 +249,10 @@ impl Search<'_> {
 
     /// The first spacing that meets the request with `segments` segments, or the nearest.
     fn best_of(&self, segments: usize) -> Result<Approximated, ApproximationError> {
-        let count = self.request.vertices(segments);
+        let count = match self.request.periodic {
+            true => segments,
+            false => segments + self.request.degree,
+        };
         let mut best: Option<Result<Approximated, ApproximationError>> = None;
         for spacing in &self.spacings {
             let tried = match spacing {

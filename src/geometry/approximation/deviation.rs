@@ -8,6 +8,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
 use crate::geometry::nearest::refined_parameter;
 use crate::geometry::progress::Progress;
+use crate::geometry::root::maximum;
 use crate::geometry::vector;
 
 /// Samples a segment at which distances are measured.
@@ -82,7 +83,7 @@ impl MeasuredDeviation {
             let (before, after) = (index.saturating_sub(1), (index + 1).min(last));
             let here = distances[index];
             if here >= enough && here >= distances[before] && here >= distances[after] {
-                let (u, largest) = largest_between([place(before), place(after)], &distance);
+                let (u, largest) = maximum([place(before), place(after)], SECTIONS, distance);
                 found = found.or(largest, u);
             }
         }
@@ -114,26 +115,6 @@ fn mean(polygon: &FloatPolygon, distances: &[f64]) -> f64 {
         length += weight;
     }
     if length > 0.0 { sum / length } else { 0.0 }
-}
-
-/// Find a maximum by the golden section.
-fn largest_between([mut low, mut high]: [f64; 2], distance: &dyn Fn(f64) -> f64) -> (f64, f64) {
-    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let mut inner = [high - share * (high - low), low + share * (high - low)];
-    let mut values = inner.map(distance);
-    for _ in 0..SECTIONS {
-        if values[0] >= values[1] {
-            high = inner[1];
-            inner = [high - share * (high - low), inner[0]];
-            values = [distance(inner[0]), values[0]];
-        } else {
-            low = inner[0];
-            inner = [inner[1], low + share * (high - low)];
-            values = [values[1], distance(inner[1])];
-        }
-    }
-    let best = usize::from(values[1] > values[0]);
-    (inner[best], values[best])
 }
 
 /// A curve to measure distances to, sampled at even parameters.

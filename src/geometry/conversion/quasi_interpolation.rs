@@ -79,18 +79,10 @@ fn rows(curve: &FloatPolygon, knots: &NewKnots) -> Vec<(usize, Vec<Number>)> {
         };
         known = Some((t, at_knot, row.clone()));
         // The mean at a knot begins one segment before, in a periodic curve perhaps the last.
-        let before = usize::from(at_knot);
-        (first_vertex(curve, segment, before), row)
+        let before = segment.checked_sub(1).unwrap_or(curve.segments() - 1);
+        (if at_knot { before } else { segment }, row)
     };
     (0..count).map(row).collect()
-}
-
-fn first_vertex(curve: &FloatPolygon, segment: usize, before: usize) -> usize {
-    if segment >= before {
-        segment - before
-    } else {
-        segment + curve.segments() - before
-    }
 }
 
 /// The numbers a_k h^{2k} for a spline of this degree, k = 0 … `last`, by which the even derivatives at

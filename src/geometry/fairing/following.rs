@@ -7,7 +7,7 @@ use super::objective::Objective;
 use super::problem::{self, Problem};
 use crate::geometry::conversion::ClampedPolygon;
 use crate::geometry::end::End;
-use crate::geometry::end_correction::{EndDifference, EndTarget, align_end, translate_end};
+use crate::geometry::end_correction::{EndDifference, EndTarget, correct_end, largest_residual};
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
@@ -157,14 +157,8 @@ pub fn follow_target(
     let held = (0..near.len()).filter(|vertex| !moves(*vertex));
     let held: Vec<usize> = held.collect();
     let begun = carried(polygon, end, target, span, locked)?;
-    let met = correct_jointly(
-        &begun,
-        &targets,
-        Disturbance::Differences(1),
-        &held,
-        &Progress::default(),
-    )?
-    .polygon;
+    let (least, progress) = (Disturbance::Differences(1), Progress::default());
+    let met = correct_jointly(&begun, &targets, least, &held, &progress)?.polygon;
     let planar = polygon.is_planar() && met.is_planar();
     let mut problem = Problem::new(&met, planar, moves);
     for (end, target) in &targets {
@@ -174,12 +168,7 @@ pub fn follow_target(
     let harmony = problem.harmony(problem.measure(), ORDER, stiffness);
     let followed = problem.descend(harmony, met.vertices(), MOST_STEPS);
     let followed = problem.polygon(&followed.vertices)?;
-    let left = |polygon: &FloatPolygon| {
-        let residuals = targets.iter().map(|(end, target)| {
-            EndDifference::between(polygon, *end, target).residual(polygon.size())
-        });
-        residuals.fold(0.0, f64::max)
-    };
+    let left = |reached: &FloatPolygon| largest_residual(reached, &targets, reached.size());
     // Curvatures are no linear conditions: a step may lose them.
     let allowed = left(&met).max(HELD * met.size());
     Ok(if left(&followed) <= allowed {
@@ -198,11 +187,7 @@ fn carried(
     span: usize,
     locked: &[usize],
 ) -> Result<FloatPolygon, PolygonError> {
-    let vector = EndDifference::between(polygon, end, target).vector;
-    let mut body = translate_end(polygon, end, vector)?;
-    if let Some(direction) = target.direction {
-        body = align_end(&body, end, direction)?;
-    }
+    let body = correct_end(polygon, end, target)?;
     let terminal = polygon.terminal_vertices(end);
     let moves: Vec<(usize, DVec3)> = terminal.map(|index| (index, body.vertex(index))).collect();
     follow_softly(polygon, &moves, span, locked)

@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::objective::Objective;
 use super::problem::{self, Descent, Problem};
 use crate::geometry::end::End;
-use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::end_correction::{EndDifference, EndTarget, largest_residual};
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
@@ -355,10 +355,7 @@ impl<'a> Correction<'a> {
     }
 
     fn residual(&self, polygon: &FloatPolygon) -> f64 {
-        let size = self.polygon.size();
-        let left = self.targets.iter();
-        left.map(|(end, target)| EndDifference::between(polygon, *end, target).residual(size))
-            .fold(0.0, vector::larger)
+        largest_residual(polygon, self.targets, self.polygon.size())
     }
 
     /// Whether every target is met, but for rounding.

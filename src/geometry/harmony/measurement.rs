@@ -67,9 +67,7 @@ impl Harmony {
             slopes: logarithmic_pieces(polygon, polygon.is_planar(), features, segments),
         }
     }
-}
 
-impl Harmony {
     /// The longest piece, by its parameters, of which a slope is known.
     pub fn longest_slope(&self) -> Option<LogarithmicPiece> {
         let length = |piece: &&LogarithmicPiece| piece.u[1] - piece.u[0];

@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
+use crate::geometry::root::maximum;
 use crate::geometry::{BezierPolygon, FloatPolygon, PolygonError};
 
 /// The radius of the circle in the paper.
@@ -184,18 +185,7 @@ fn largest(segments: usize, value: impl Fn(f64) -> f64) -> f64 {
         .collect();
     let best = (0..samples.len()).max_by(|&a, &b| samples[a].total_cmp(&samples[b]));
     let best = best.unwrap_or_default();
-    let (mut low, mut high) = (
-        best.saturating_sub(1) as f64 * step,
-        (best + 1).min(count) as f64 * step,
-    );
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    for _ in 0..STEPS {
-        let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-        if value(left) < value(right) {
-            low = left;
-        } else {
-            high = right;
-        }
-    }
-    value(0.5 * (low + high)).max(samples[best])
+    let beside = [best.saturating_sub(1), (best + 1).min(count)];
+    let (_, largest) = maximum(beside.map(|index| index as f64 * step), STEPS, value);
+    largest.max(samples[best])
 }

@@ -1,7 +1,7 @@
 //! Approximations that begin and end where the curve does, in its directions.
 
 use crate::geometry::end::End;
-use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::end_correction::{EndTarget, largest_residual};
 use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
@@ -23,19 +23,11 @@ pub(super) fn with_ends(polygon: FloatPolygon, jets: [Jet; 2]) -> FloatPolygon {
     });
     let targets = [(End::Start, start), (End::Finish, finish)];
     let size = polygon.size();
-    let met = targets.iter().all(|(end, target)| {
-        EndDifference::between(&polygon, *end, target).residual(size) <= ROUNDINGS * size
-    });
-    if met {
+    if largest_residual(&polygon, &targets, size) <= ROUNDINGS * size {
         return polygon;
     }
-    match correct_jointly(
-        &polygon,
-        &targets,
-        Disturbance::Differences(1),
-        &[],
-        &Progress::default(),
-    ) {
+    let (least, progress) = (Disturbance::Differences(1), Progress::default());
+    match correct_jointly(&polygon, &targets, least, &[], &progress) {
         Ok(correction) => correction.polygon,
         Err(_) => polygon,
     }
