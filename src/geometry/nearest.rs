@@ -13,7 +13,7 @@ const STARTS: usize = 16;
 /// Newton steps a start: far more than quadratic convergence needs.
 const STEPS: usize = 24;
 
-/// Hold the point of a curve nearest to another point.
+/// The point of a curve nearest to another point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
     /// Its parameter, in \[0, L\].

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::taylor_series::{power_sum, product_coefficient};
 
-/// Hold the first coefficients of the power series of a function about a parameter t:
+/// The first coefficients of the power series of a function about a parameter t:
 /// f(t + h) = Σ cₖ hᵏ, k = 0 … order, where cₖ is the k-th derivative at t over k!.
 ///
 /// Functions of series have the coefficients of the truncated series, exact up to rounding. Where a

@@ -1,4 +1,4 @@
-//! Cusps of curves that no polygon makes: found among samples, not proved.
+//! Cusps of curves without a polygon, by samples: not proved.
 
 use super::jet::Jet;
 use super::parametric_curve::ParametricCurve;

@@ -1,5 +1,5 @@
-//! Approximations with what is known of them: how far they are from the curve, and whether they have its
-//! shape.
+//! Approximations of a curve by float polygons, with their distance from it and the comparison of
+//! their levels.
 
 use glam::DVec3;
 
@@ -274,7 +274,7 @@ impl Search<'_> {
     }
 
     /// The better of what is known and what was tried: what is near enough and has more equal levels, and
-    /// else what is nearer. Of equal ones that counts which is known.
+    /// else what is nearer. Of equal ones the known one stays.
     fn better(
         &self,
         known: Option<Result<Approximated, ApproximationError>>,

@@ -27,7 +27,7 @@ const NEARLY_LARGEST: f64 = 0.95;
 /// an error of the square of that.
 const SECTIONS: usize = 15;
 
-/// Hold how far one curve is from another: true distances, from points of the one to the nearest points
+/// Distance of one curve from another: true distances, from points of the one to the nearest points
 /// of the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredDeviation {

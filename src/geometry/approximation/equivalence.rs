@@ -240,7 +240,7 @@ impl Samples {
     }
 }
 
-/// What rounding the vertices to doubles may move a level by: each difference of neighbours doubles it.
+/// The change of a level by rounding the vertices to doubles: each difference of neighbours doubles it.
 fn rounding(
     polygon: &FloatPolygon,
     torsion: bool,

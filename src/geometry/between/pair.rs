@@ -2,14 +2,14 @@
 //!
 //! Of two log-aesthetic segments the first takes the curvature from that of the start to one between
 //! the two, and the second from there to that of the end: the curvature of both together is monotone.
-//! With one α for both, that curvature and the share of the turning that the first does are two
-//! unknowns for the two coordinates of the chord. Without a given α the two have −1 + e and −1 − e: then
-//! the curvature may fall fast, slowly and fast again, or the other way round, which one α does not
-//! allow, and e takes the place of the curvature as an unknown.
+//! The unknowns are the curvature between and the first segment's share of the turning, for the two
+//! coordinates of the chord; both segments have one α. Without a given α they have −1 + e and −1 − e, and
+//! e takes the place of the curvature as an unknown: the curvature may then fall fast, slowly and fast
+//! again, or the other way round, which one α does not allow.
 //!
-//! Where the curvature changes its sign, or no pair does, three clothoids of which the first and the last are equally
-//! long take it from one end to the other, with the length of all and the change of curvature along
-//! the middle one as unknowns.
+//! Where the curvature changes its sign, or no pair is found, three clothoids take it from one end to the
+//! other. The first and the last are equally long; the length of all and the change of curvature along
+//! the middle one are the unknowns.
 
 use glam::{DMat2, DVec2};
 

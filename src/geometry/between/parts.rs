@@ -21,7 +21,7 @@ pub struct Part {
     pub reversed: bool,
 }
 
-/// Hold parts that follow each other, by one parameter: that of each times its scale, so arc length
+/// Parts that follow each other, by one parameter: that of each times its scale, so arc length
 /// where theirs is.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Parts {

@@ -1,9 +1,9 @@
 //! Superspiral segments, up to a similarity (Ziatdinov, "Family of superspirals with completely
 //! monotonic curvature given in terms of Gauss hypergeometric function", 2012).
 //!
-//! For a > 0 and c > b > 0 the radius of curvature ₂F₁(a, b; c; −ψ) falls as the direction angle ψ rises
-//! from −1, ever more slowly: a segment that turns by θ leans the less the later it begins. So one
-//! bracketed root finds where it begins.
+//! For a > 0 and c > b > 0 the radius of curvature ₂F₁(a, b; c; −ψ) falls ever more slowly as the direction
+//! angle ψ rises from −1. A segment that turns by θ leans the less the later it begins, so bisection
+//! finds its start.
 
 use glam::DVec2;
 

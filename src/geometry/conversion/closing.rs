@@ -1,4 +1,4 @@
-//! Polygons that close, and how far apart two polygons are.
+//! Checks of periodic polygons, and the largest difference of two polygons.
 
 use crate::geometry::control_polygon::ControlPolygon;
 use crate::geometry::error::PolygonError;

@@ -1,9 +1,9 @@
 //! The float polygon that doubles allow for a curve given by its clamped or Bézier polygon.
 //!
-//! The exact conversion, rounded, is taken where its curve is that of the given polygon but for a
-//! few roundings. It is not where the float vertices are so large that their own rounding shows,
-//! which the rounding of the given vertices makes them from degree 12 on, or where each comes from
-//! another Bézier segment. Then the nearest curve of several least-squares fits is taken.
+//! Usually it is the exact conversion, rounded: its curve is that of the given polygon but for a few
+//! roundings. This fails where the float vertices are so large that their own rounding shows (from
+//! degree 12 on rounding of the given vertices makes them so), or where each comes from another
+//! Bézier segment. Then it is the nearest curve of several least-squares fits.
 
 use super::amplification::double_factorial;
 use super::bezier_polygon::BezierPolygon;
@@ -52,7 +52,7 @@ const DIRECT_DEGREE: usize = 4;
 /// at most, leaves 56 bits.
 const DOUBLE_DOUBLE_DEGREE: usize = 9;
 
-/// Hold a float polygon that stands for a clamped or Bézier polygon.
+/// Float polygon that stands for a clamped or Bézier polygon.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NearestFloat {
     /// The float polygon.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::dual::{Dual, DualVector, differentiate};
+use super::dual::{Dual, DualVector, differentiate, slope_numerator};
 use super::jet_weights::{JetWeights, ORDERS};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::vector;
@@ -93,8 +93,7 @@ impl Condition {
                 jet[order].dot(axis) - value
             }
             _ => {
-                let formula =
-                    |[first, second, third]: [DualVector; 3]| self.formula(first, second, third);
+                let formula = |derivatives| self.formula(derivatives);
                 let (left, by_derivative) = differentiate([jet[1], jet[2], jet[3]], formula);
                 gradient[1..].copy_from_slice(&by_derivative);
                 left
@@ -103,7 +102,8 @@ impl Condition {
         (left, weights.gradient(&gradient))
     }
 
-    fn formula(&self, first: DualVector, second: DualVector, third: DualVector) -> Dual {
+    fn formula(&self, derivatives: [DualVector; 3]) -> Dual {
+        let [first, second, _] = derivatives;
         let normal = first.cross(second);
         let squared = first.dot(first);
         match *self {
@@ -116,15 +116,9 @@ impl Condition {
             Self::SeenSlope {
                 normal: seen,
                 value,
-            } => {
-                squared * first.cross(third).along(seen)
-                    - first.dot(second) * normal.along(seen) * 3.0
-                    - squared.cubed() * value
-            }
+            } => slope_numerator(derivatives, Some(seen)) - squared.cubed() * value,
             Self::Slope { value } => {
-                squared * normal.dot(first.cross(third))
-                    - first.dot(second) * normal.dot(normal) * 3.0
-                    - squared.cubed() * normal.length() * value
+                slope_numerator(derivatives, None) - squared.cubed() * normal.length() * value
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Numbers of features of a curve or a stretch of it, ripple apart.
 
-use crate::geometry::features::{Extremum, Features, Root};
+use crate::geometry::features::{Extremum, Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
 use crate::geometry::sampler::{BATCH_ORDER, Batch, Sampler};
@@ -80,25 +80,22 @@ impl ProvedCounts {
 /// Count the proved features that lie in a stretch.
 pub(super) fn counted(features: &Features, planar: bool, stretch: [f64; 2]) -> ProvedCounts {
     let within = |u: [f64; 2]| u[1] >= stretch[0] && u[0] <= stretch[1];
-    let roots = |roots: &[Root]| -> usize {
-        let found = roots.iter().filter(|root| within(root.u));
-        found.map(|root| root.count).sum()
+    let number = |quantity: Feature| -> usize {
+        let found = features.places(quantity).into_iter();
+        let found = found.filter(|(u, _)| within(*u));
+        found.map(|(_, count)| count).sum()
     };
-    let extrema = |extrema: &[Extremum]| -> usize {
-        let found = extrema.iter().filter(|extremum| within(extremum.u));
-        found.map(|extremum| extremum.count).sum()
+    let inflection = match planar {
+        true => Feature::Inflection,
+        false => Feature::TorsionZero,
     };
     let doubts = features.undecided.iter().filter(|doubt| within(doubt.u));
     let cusps = features.cusps.iter().filter(|cusp| within(cusp.u));
     ProvedCounts {
         counts: ShapeCounts {
-            inflections: if planar {
-                roots(&features.inflections)
-            } else {
-                roots(&features.torsion_zeros)
-            },
-            extrema: extrema(&features.curvature_extrema),
-            torsion_extrema: extrema(&features.torsion_extrema),
+            inflections: number(inflection),
+            extrema: number(Feature::CurvatureExtremum),
+            torsion_extrema: number(Feature::TorsionExtremum),
         },
         undecided: doubts.count() + cusps.count(),
     }

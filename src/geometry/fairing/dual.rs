@@ -117,6 +117,20 @@ impl DualVector {
     }
 }
 
+/// The numerator of a curve's curvature slope by its first three derivatives: dκ/ds times |C′|⁶,
+/// with κ as seen along a normal; without one times |C′ × C″| as well, with κ of the curve in space.
+pub(super) fn slope_numerator(
+    [first, second, third]: [DualVector; 3],
+    seen: Option<DVec3>,
+) -> Dual {
+    let (normal, change) = (first.cross(second), first.cross(third));
+    let (turning, bending) = match seen {
+        Some(axis) => (change.along(axis), normal.along(axis)),
+        None => (normal.dot(change), normal.dot(normal)),
+    };
+    first.dot(first) * turning - first.dot(second) * bending * 3.0
+}
+
 impl Add for Dual {
     type Output = Self;
     fn add(self, other: Self) -> Self {

@@ -249,13 +249,7 @@ impl PointFit<'_> {
         };
         for sign in &mut self.signs[first..] {
             let (_, gradient) = sign.slope(near.polygon.vertices(), self.planar);
-            let mut row = vec![0.0; self.unknowns.len()];
-            for (vertex, slope) in gradient {
-                let place = self.unknowns.first(vertex).unwrap_or_default();
-                for axis in 0..self.unknowns.axes {
-                    row[place + axis] += slope[axis];
-                }
-            }
+            let row = self.unknowns.row(&gradient);
             let response = factors.solve(&row);
             let terms = row.iter().zip(response);
             let variance: f64 = terms.map(|(slope, response)| slope * response).sum();

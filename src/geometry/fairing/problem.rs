@@ -27,7 +27,7 @@ pub(super) const MOST_STEPS: usize = 60;
 /// Steps below this share of the curve's size count as none.
 const NO_STEP: f64 = 4.0 * f64::EPSILON;
 
-/// What is left of the conditions, in units of the curve's size, from which on Newton's steps
+/// The residual of the conditions, in units of the curve's size, from which on Newton's steps
 /// converge by themselves.
 const NEAR: f64 = 1e-8;
 
@@ -387,7 +387,7 @@ impl<'a> Problem<'a> {
             for condition in conditions {
                 let (missing, gradient) = condition.linearised(weights, vertices);
                 left.push(missing);
-                rows.push(self.row(&gradient));
+                rows.push(self.unknowns.row(&gradient));
             }
         }
         let responses: Vec<Vec<f64>> = rows.iter().map(|row| factors.solve(row)).collect();
@@ -408,18 +408,6 @@ impl<'a> Problem<'a> {
             gram,
             unknowns: self.unknowns.len(),
         })
-    }
-
-    fn row(&self, gradient: &[(usize, DVec3)]) -> Vec<f64> {
-        let mut row = vec![0.0; self.unknowns.len()];
-        for (vertex, slope) in gradient {
-            if let Some(first) = self.unknowns.first(*vertex) {
-                for axis in 0..self.unknowns.axes {
-                    row[first + axis] += slope[axis];
-                }
-            }
-        }
-        row
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::dual::{Dual, DualVector, differentiate};
+use super::dual::{Dual, DualVector, differentiate, slope_numerator};
 use super::jet_weights::{JetWeights, ORDERS};
 use crate::geometry::float_polygon::FloatPolygon;
 
@@ -26,13 +26,13 @@ pub(super) struct SlopeSign {
     /// Whether the curvature is to rise.
     pub(super) rises: bool,
     weights: JetWeights,
-    /// What slopes are measured in: how far noise of the points moves this one.
+    /// The unit of slopes: how far noise of the points moves this one.
     unit: f64,
     multiplier: f64,
     pub(super) active: bool,
 }
 
-/// What a condition adds to a sum that is made small: half its value, and the derivatives of that by the slope.
+/// The share of a condition in the minimised sum: half its value, and the derivatives of that by the slope.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pressure {
     pub(super) value: f64,
@@ -69,7 +69,7 @@ impl SlopeSign {
         }
     }
 
-    /// Evaluate the slope dκ/du, positive where it has the sign asked for, and its gradient by the
+    /// Evaluate the slope dκ/du, positive where it has the requested sign, and its gradient by the
     /// vertices.
     pub(super) fn slope(&self, vertices: &[DVec3], planar: bool) -> (f64, Vec<(usize, DVec3)>) {
         let jet = self.weights.jet(vertices);
@@ -117,18 +117,15 @@ impl SlopeSign {
 
 /// dκ/du = (|C′|² (C′ × C‴) − 3 (C′·C″) (C′ × C″))·b / |C′|⁵ with b the normal of the plane, or in
 /// space of the osculating plane.
-fn slope([first, second, third]: [DualVector; 3], planar: bool) -> Dual {
+fn slope(derivatives: [DualVector; 3], planar: bool) -> Dual {
+    let [first, second, _] = derivatives;
     let squared = first.dot(first);
-    let normal = first.cross(second);
     let fifth = squared * squared * squared.sqrt();
+    let numerator = slope_numerator(derivatives, planar.then_some(DVec3::Z));
     if planar {
-        let turning = first.cross(third).along(DVec3::Z);
-        let numerator = squared * turning - first.dot(second) * normal.along(DVec3::Z) * 3.0;
         numerator / fifth
     } else {
-        let turning = normal.dot(first.cross(third));
-        let numerator = squared * turning - first.dot(second) * normal.dot(normal) * 3.0;
-        numerator / (fifth * normal.length())
+        numerator / (fifth * first.cross(second).length())
     }
 }
 

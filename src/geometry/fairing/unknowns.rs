@@ -71,4 +71,17 @@ impl Unknowns {
         }
         moved
     }
+
+    /// A gradient by vertices as one by all unknowns.
+    pub(super) fn row(&self, gradient: &[(usize, DVec3)]) -> Vec<f64> {
+        let mut row = vec![0.0; self.len()];
+        for (vertex, slope) in gradient {
+            if let Some(first) = self.first(*vertex) {
+                for axis in 0..self.axes {
+                    row[first + axis] += slope[axis];
+                }
+            }
+        }
+        row
+    }
 }

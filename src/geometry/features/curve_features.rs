@@ -21,7 +21,7 @@ impl Features {
         Self::proved(polygon, |_| true).unwrap_or_default()
     }
 
-    /// Prove the features of a whole curve; `wanted` is asked before each segment, with its number,
+    /// Prove the features of a whole curve; `wanted` tells before each segment, by its number,
     /// whether to go on. `None` if not.
     pub fn proved(polygon: &FloatPolygon, wanted: impl FnMut(usize) -> bool) -> Option<Self> {
         let segments = SegmentFeatures::of_curve(polygon, wanted)?;

@@ -60,13 +60,19 @@ pub struct Extremum {
 impl Features {
     /// Tell how many features of a kind are proved.
     pub fn count(&self, quantity: Feature) -> usize {
-        let roots = |roots: &[Root]| roots.iter().map(|root| root.count).sum();
-        let extrema = |extrema: &[Extremum]| extrema.iter().map(|extremum| extremum.count).sum();
+        let places = self.places(quantity).into_iter();
+        places.map(|(_, count)| count).sum()
+    }
+
+    /// The intervals of u that hold the features of a kind, with their numbers.
+    pub fn places(&self, quantity: Feature) -> Vec<([f64; 2], usize)> {
+        let of_roots = |roots: &[Root]| roots.iter().map(|it| (it.u, it.count)).collect();
+        let of_extrema = |extrema: &[Extremum]| extrema.iter().map(|it| (it.u, it.count)).collect();
         match quantity {
-            Feature::Inflection => roots(&self.inflections),
-            Feature::CurvatureExtremum => extrema(&self.curvature_extrema),
-            Feature::TorsionZero => roots(&self.torsion_zeros),
-            Feature::TorsionExtremum => extrema(&self.torsion_extrema),
+            Feature::Inflection => of_roots(&self.inflections),
+            Feature::CurvatureExtremum => of_extrema(&self.curvature_extrema),
+            Feature::TorsionZero => of_roots(&self.torsion_zeros),
+            Feature::TorsionExtremum => of_extrema(&self.torsion_extrema),
         }
     }
 }

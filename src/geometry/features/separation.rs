@@ -10,7 +10,7 @@ use super::sign_walk::Change;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::whole_numbers::fraction;
 
-/// Hold changes of sign that one interval of u holds.
+/// Changes of sign in one interval of u.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ChangeInterval {
     /// The interval.
@@ -24,7 +24,7 @@ pub(super) struct ChangeInterval {
 }
 
 impl ChangeInterval {
-    /// Hold one change, with the interval of u of its places.
+    /// Start with one change, and the interval of u of its places.
     pub(super) fn new(change: Change, u: [f64; 2]) -> Self {
         Self {
             u,

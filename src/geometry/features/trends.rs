@@ -1,4 +1,4 @@
-//! The pieces of a curve on which its curvature does one thing.
+//! The pieces of a curve on which its curvature rises, falls or stays constant.
 
 use std::collections::HashMap;
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::vector;
 
-/// Hold to which order a polygon is regular: every difference polygon Δᵏ P, k = 1 … order, has no
+/// Order to which a polygon is regular: every difference polygon Δᵏ P, k = 1 … order, has no
 /// zero leg and keeps the sense of turning between inflections.
 ///
 /// The legs of the k-th difference polygon are the vectors Δᵏ Pᵢ; k = 1 is the polygon itself. Of a
@@ -22,7 +22,7 @@ pub struct Regularity {
     pub irregularity: Option<Irregularity>,
 }
 
-/// Hold where the difference polygon Δᵏ P is irregular first, k one more than the regular order.
+/// Place where the difference polygon Δᵏ P is irregular first, k one more than the regular order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Irregularity {
     /// The defect there.

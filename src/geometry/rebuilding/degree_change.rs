@@ -5,8 +5,6 @@ use std::cmp::Ordering;
 use super::kept_ends::with_ends;
 use crate::geometry::control_polygon::check_degree;
 use crate::geometry::conversion::approximation::Approximation;
-use crate::geometry::conversion::bezier_polygon::BezierPolygon;
-use crate::geometry::conversion::deviation::between_chains;
 use crate::geometry::conversion::exact_polygon::ExactPolygon;
 use crate::geometry::conversion::quasi_interpolation::{NewKnots, quasi_interpolated};
 use crate::geometry::end::End;
@@ -61,13 +59,9 @@ impl FloatPolygon {
         } else {
             with_ends(polygon, End::BOTH.map(|end| self.end_jet(end)))
         };
-        let (before, after) = (
-            BezierPolygon::from_float(self),
-            BezierPolygon::from_float(&polygon),
-        );
         Ok(Approximation {
+            deviation: self.deviation(&polygon)?,
             polygon,
-            deviation: between_chains(&before, &after),
             exact: false,
         })
     }

@@ -17,13 +17,13 @@ const SAMPLES: usize = 256;
 /// A piece may turn by about so much.
 const PIECE_TURNING: f64 = std::f64::consts::FRAC_PI_4;
 
-/// What moves by no more than this share of its coordinates over the whole interval stands still.
+/// A curve that moves by no more than this share of its coordinates over the whole interval is one point.
 const STANDING: f64 = 8.0 * f64::EPSILON;
 
 /// The numbers of pieces of a smooth curve.
 const PIECES: std::ops::RangeInclusive<usize> = 8..=1024;
 
-/// Hold a form, the interval of its own parameter t that is drawn, and where it lies.
+/// Form with the interval of its own parameter t that is drawn, and its placement.
 ///
 /// As a [`ParametricCurve`] it has pieces over even parts of the interval, each of a moderate turning,
 /// and as many continuous derivatives as one likes; points have a piece for each straight line

@@ -19,7 +19,7 @@ pub enum ReferenceForm {
     Points(PointList),
 }
 
-/// Hold a kind of curve with a checked value for each parameter.
+/// Kind of curve with a checked value for each parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AnalyticForm {
     kind: &'static ReferenceKind,

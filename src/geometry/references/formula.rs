@@ -4,7 +4,7 @@ use super::error::{ReferenceError, ReferenceTextError};
 use crate::geometry::expressions::Expression;
 use crate::geometry::power_series::PowerSeries;
 
-/// Hold formulas x(t), y(t) and, of a curve in space, z(t).
+/// Formulas x(t), y(t) and, of a curve in space, z(t).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Formula {
     pub(super) x: Coordinate,

@@ -13,13 +13,13 @@ pub(super) const MOST_TURNING: f64 = 1000.0 * std::f64::consts::TAU;
 /// e^{iθ} over that to rounding.
 const STEP: f64 = 4.0;
 
-/// What the quadrature may err, relative to the length of the curve and to the direction angle, which is
+/// Error bound of the quadrature, relative to the length of the curve and to the direction angle, which is
 /// itself rounded: less could not be told from rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 thread_local! {
-    /// The integrals of the curve that this thread evaluated last: its points are asked for one after the
-    /// other, and each is an integral from 0.
+    /// The integrals of the curve that this thread evaluated last: callers evaluate its points one after
+    /// the other, and each is an integral from 0.
     static LAST: RefCell<Option<Integrals>> = const { RefCell::new(None) };
 }
 
@@ -46,7 +46,7 @@ pub(super) fn integrated(
 }
 
 /// The integrals of a curve at knots, as far as they were needed. Where the knots lie depends on the curve
-/// alone, so a point is the same to the bit whichever was asked for before.
+/// alone, so a point is the same to the bit whichever was evaluated before.
 struct Integrals {
     kind: &'static str,
     values: Vec<f64>,
@@ -127,7 +127,7 @@ fn span(from: f64, sign: f64, angle: &impl Fn(f64) -> f64) -> f64 {
 }
 
 /// Expand a planar curve of speed 1 that starts at the origin along the x axis: C′ = (cos θ, sin θ),
-/// θ(0) = 0. `expansion` is the series of θ about t, to the order of the curve or one less.
+/// θ(0) = 0. `t` is the series of its parameter, `expansion` that of θ, to the same order or one less.
 pub(super) fn unit_speed(
     identity: Identity<'_>,
     t: &PowerSeries,

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::error::ReferenceError;
 use crate::geometry::parameters::SIZES;
 
-/// Hold a similarity: points are rotated about the origin, scaled, and then translated.
+/// Similarity: points are rotated about the origin, scaled, and then translated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     rotation: DQuat,

@@ -73,7 +73,7 @@ pub static KIND: ReferenceKind = ReferenceKind {
 };
 
 thread_local! {
-    /// The spiral that this thread evaluated last: its points are asked for one after the other, and each
+    /// The spiral that this thread evaluated last: callers evaluate its points one after the other, and each
     /// is an integral from 0.
     static LAST: RefCell<Option<Spiral>> = const { RefCell::new(None) };
 }

@@ -196,19 +196,10 @@ impl Trial {
 
     /// List the places of the features in order, each as often as it counts.
     fn places(&self, features: &Features) -> Vec<f64> {
-        let counted: Vec<(f64, usize)> = match self.quantity {
-            Feature::Inflection => {
-                let roots = features.inflections.iter();
-                roots.map(|root| (middle(root.u), root.count)).collect()
-            }
-            _ => {
-                let extrema = features.curvature_extrema.iter();
-                let place = extrema.map(|extremum| (middle(extremum.u), extremum.count));
-                place.collect()
-            }
-        };
-        let places = counted.into_iter();
-        let places = places.flat_map(|(u, count)| std::iter::repeat_n(self.unrolled(u), count));
+        let places = features.places(self.quantity).into_iter();
+        let places = places.flat_map(|([low, high], count)| {
+            std::iter::repeat_n(self.unrolled(0.5 * (low + high)), count)
+        });
         let mut places: Vec<f64> = places.collect();
         places.sort_by(f64::total_cmp);
         places
@@ -219,10 +210,6 @@ impl Trial {
         self.period
             .map_or(u, |period| (u - self.origin).rem_euclid(period))
     }
-}
-
-fn middle([low, high]: [f64; 2]) -> f64 {
-    0.5 * (low + high)
 }
 
 /// Choose where the order of a periodic curve's features begins: in the middle of the segments that

@@ -1,4 +1,4 @@
-//! The ray along which one vertex goes: where to try, and how far it may go at all.
+//! The ray along which one vertex moves: the places to try, and the largest distance.
 
 use glam::{DVec2, DVec3};
 
