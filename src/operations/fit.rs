@@ -10,7 +10,7 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Kind, POSITIVE, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit};
-use crate::geometry::approximation::{FitRequest, FitError, Fitted, fit_points};
+use crate::geometry::approximation::{FitError, FitRequest, Fitted, fit_points};
 use crate::geometry::parameters::OutOfRange;
 use crate::geometry::{MAX_DEGREE, Progress, counted, significant};
 

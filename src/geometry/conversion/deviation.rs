@@ -109,7 +109,7 @@ pub(in crate::geometry) fn from_part(
 }
 
 /// Bound the distance between two chains of as many Bézier polygons.
-pub(in crate::geometry) fn between_chains(a: &BezierPolygon, b: &BezierPolygon) -> f64 {
+fn between_chains(a: &BezierPolygon, b: &BezierPolygon) -> f64 {
     let pairs = pieces(a).zip(pieces(b));
     let allowance = ROUNDINGS * vector::reach(a.vertices()).max(vector::reach(b.vertices()));
     largest_norm(pairs.map(|(a, b)| difference(&a, &b)), allowance) + allowance
