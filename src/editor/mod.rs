@@ -87,6 +87,7 @@ impl Editor {
         wake: impl Fn() + Clone + Send + 'static,
     ) {
         self.patience = Patience::new(patience);
+        self.hand.keeping.hurry();
         self.view.run_in_background(wake.clone());
         self.foreseeing = Client::background("foresight", wake.clone());
         self.recovery.autosaving.run_in_background(wake.clone());

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use super::kept_curves::{KeptCurves, KnownFeatures, Obstacle};
 use crate::document::{CurveId, Document, Edit, EditError, quoted};
 
-/// How long a frame tries places on the way to one that is not safe.
+/// The time in which a frame of the window tries places on the way to one that is not safe.
 const BUDGET: Duration = Duration::from_millis(3);
 
 /// The most halvings of that way.
@@ -27,6 +27,8 @@ pub struct Keeping {
     good: Places,
     /// Why the vertices are not where the pointer has them.
     held_back: Option<String>,
+    /// Whether a frame must not wait for all places: without a window every one is tried.
+    hurries: bool,
 }
 
 /// Vertices of a curve with their places.
@@ -47,9 +49,17 @@ struct Drag<'a> {
 }
 
 impl Keeping {
+    /// Try places only as long as a frame of a window may take.
+    pub fn hurry(&mut self) {
+        self.hurries = true;
+    }
+
     /// Forget the drag.
     pub fn end(&mut self) {
-        *self = Self::default();
+        *self = Self {
+            hurries: self.hurries,
+            ..Self::default()
+        };
     }
 
     /// Why the vertices are not where the pointer has them, in words.
@@ -139,7 +149,7 @@ impl Keeping {
         let from = self.good.clone();
         let (mut holds, mut fails) = (0.0, 1.0);
         for _ in 0..HALVINGS {
-            if begin.elapsed() > BUDGET {
+            if self.is_late(begin) {
                 break;
             }
             let share = 0.5 * (holds + fails);
@@ -169,6 +179,10 @@ impl Keeping {
         Ok(())
     }
 
+    fn is_late(&self, begin: Instant) -> bool {
+        self.hurries && begin.elapsed() > BUDGET
+    }
+
     /// Let a single vertex go along the border, nearer to where the pointer has it.
     fn slide(&mut self, wanted: &Places, drag: &Drag, begin: Instant) {
         let single = |places: &Places| {
@@ -185,7 +199,7 @@ impl Keeping {
         };
         let left = wanted - good;
         for degrees in ASIDE {
-            if begin.elapsed() > BUDGET {
+            if self.is_late(begin) {
                 return;
             }
             let angle = degrees.to_radians();
