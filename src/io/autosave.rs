@@ -1,7 +1,7 @@
 //! Autosaves: an unsaved document with the path and the fingerprint of its file.
 //!
 //! An autosave is a line of JSON with the origin of the document, and below it a project as
-//! [`project`](super::project) writes it.
+//! `io/project` writes it.
 
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
