@@ -218,6 +218,21 @@ impl Action {
         })
     }
 
+    /// Whether the action opens a dialog, under which no drag can go on.
+    pub fn covers_canvas(self) -> bool {
+        matches!(
+            self,
+            Self::Import
+                | Self::SaveAs
+                | Self::Export(_)
+                | Self::NudgeStep
+                | Self::Palette
+                | Self::Manual
+                | Self::Keys
+                | Self::About
+        )
+    }
+
     /// Whether the action is available now.
     pub fn is_enabled(self, editor: &Editor) -> bool {
         match self {

@@ -361,6 +361,9 @@ impl App {
         if !action.is_enabled(&self.editor) {
             return;
         }
+        if action.covers_canvas() && self.editor.hand().is_dragging() {
+            self.editor.interrupt();
+        }
         match action {
             Action::Command(command) => {
                 if command == Command::Undo {

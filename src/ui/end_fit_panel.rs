@@ -1,8 +1,6 @@
 //! The end-fit panel: the target, and the seven steps with their figures and buttons.
 
-use eframe::egui::{
-    Align2, Button, Frame, Panel, Rect, RichText, Role, Sense, Ui, WidgetInfo, vec2,
-};
+use eframe::egui::{Align2, Button, Rect, RichText, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 use lucide_icons::Icon;
 
 use super::end_fit_target::target_ui;
@@ -20,7 +18,7 @@ use crate::operations::LargestMove;
 const FIELD: f32 = 96.0;
 
 /// The height of the place for the last action's message.
-const OUTCOME: f32 = 10.0 * STEP;
+const OUTCOME: f32 = 11.0 * STEP;
 
 /// The indentation of what belongs to a step.
 const INDENT: f32 = 28.0;
@@ -28,17 +26,12 @@ const INDENT: f32 = 28.0;
 /// The width of a step's button.
 const BUTTON: f32 = 76.0;
 
-/// Show the panel: the steps, and below them, in a place of its own, the last action's message.
+/// Show the panel: the steps, and below them the last action's message.
 pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
     let Some(report) = editor.hand().end_fit(editor.workspace(), editor.view()) else {
         empty_ui(ui, editor);
         return;
     };
-    let place = Panel::bottom("end fit outcome").resizable(false);
-    let place = place.frame(Frame::NONE).exact_size(OUTCOME);
-    place.show(ui, |ui| {
-        widgets::scrolling(ui, "end fit outcome", |ui| outcome_ui(ui, &report));
-    });
     let is_closed = !editor.sight().layers().shows(Layer::Float);
     let pixel = editor.view().viewport().pixel();
     // Each end of each curve has fields of its own, so that no text goes to another end.
@@ -53,14 +46,34 @@ pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
         let step = steps_ui(ui, &report, is_closed);
         step.or(end).map(FieldEvent::Set).or(event)
     };
-    let event = widgets::scrolling(ui, "end fit", |ui| ui.push_id(id, panel).inner);
-    if let Some(event) = event {
+    let room = ui.available_rect_before_wrap();
+    let has_outcome = report.outcome.is_some();
+    let footer = 2.0 * ROW + 3.0 * STEP + if has_outcome { OUTCOME } else { 0.0 };
+    let (above, below) = room.split_top_bottom_at_y(room.bottom() - footer);
+    let event = inside(ui, above, |ui| {
+        widgets::scrolling(ui, "end fit", |ui| ui.push_id(id, panel).inner)
+    });
+    let last = inside(ui, below, |ui| {
+        let last = last_step_ui(ui, &report);
+        widgets::scrolling(ui, "end fit outcome", |ui| outcome_ui(ui, &report));
+        last
+    });
+    if let Some(event) = last.map(FieldEvent::Set).or(event) {
         event.send(
             editor,
             |editor, action| action.preview(editor),
             |editor, action| told(editor.end_fit_action(action)),
         );
     }
+}
+
+/// Show contents in a part of the panel, and nothing of them beside it.
+fn inside<R>(ui: &mut Ui, part: Rect, contents: impl FnOnce(&mut Ui) -> R) -> R {
+    let shown = ui.scope_builder(UiBuilder::new().max_rect(part), |ui| {
+        ui.shrink_clip_rect(part);
+        contents(ui)
+    });
+    shown.inner
 }
 
 fn empty_ui(ui: &mut Ui, editor: &Editor) {
@@ -138,15 +151,8 @@ fn steps_ui(ui: &mut Ui, report: &EndFitReport, is_closed: bool) -> Option<EndFi
     let rotate = button(rotate, has_direction, EndFitAction::Rotate);
     let is_turned = has_direction && is_aligned;
     let rotated = step_ui(ui, 6, &format!("Turn {count}"), is_turned, rotate);
-    let repeat = [
-        "Repeat",
-        "Repeat",
-        "Repeat steps 2 to 6 on both ends until within the tolerance",
-    ];
-    let repeat = button(repeat, report.targets > 0, EndFitAction::Repeat);
-    let repeated = step_ui(ui, 7, "Refine and repeat", report.within, repeat);
     let rest = indented(ui, |ui| repeat_ui(ui, report));
-    let actions = [closed, translated, rotated, repeated];
+    let actions = [closed, translated, rotated];
     rest.or(actions.into_iter().flatten().next())
 }
 
@@ -240,17 +246,29 @@ fn difference_ui(ui: &mut Ui, report: &EndFitReport) {
     widgets::figure_pairs(ui, &pairs);
 }
 
-/// Below step 7: both ends at once, the error that is left, and the tolerance.
+/// Step 7, which is always in reach: repeat, or correct both ends at once.
+fn last_step_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
+    ui.set_max_width(ui.available_width() - ui.spacing().scroll.allocated_width());
+    let is_ready = report.targets > 0 && report.can_move();
+    let repeated = step_ui(ui, 7, "Refine and repeat", report.within, |ui| {
+        let button = Button::new("Repeat").min_size(vec2(BUTTON, ROW));
+        let help = "Repeat steps 2 to 6 on both ends until within the tolerance";
+        let response = ui.add_enabled(is_ready, button).on_hover_text(help);
+        response.clicked().then_some(EndFitAction::Repeat)
+    });
+    let width = ui.available_width();
+    let both = ui.add_enabled_ui(is_ready, |ui| {
+        ui.add_sized(vec2(width, ROW), Button::new("Both ends at once"))
+    });
+    let help = "Meet all targets at once, with the smallest moves of vertices";
+    let both = both.inner.on_hover_text(help).clicked();
+    repeated.or(both.then_some(EndFitAction::BothAtOnce))
+}
+
+/// Below step 6: the error that is left, and the tolerance.
 fn repeat_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     let none = || "–".to_owned();
     let length = |ui: &Ui, value| document_unit::length(ui.ctx(), figures::significant(value, 4));
-    let width = ui.available_width();
-    let both = ui.add_enabled_ui(report.targets > 0 && report.can_move(), |ui| {
-        ui.add_sized(vec2(width, ROW), Button::new("Both ends at once"))
-    });
-    let both = both
-        .inner
-        .on_hover_text("Meet all targets at once, with the smallest moves of vertices");
     let largest = report.largest_move.map(|LargestMove { distance, vertex }| {
         format!("{} at vertex {vertex}", length(ui, distance))
     });
@@ -277,8 +295,7 @@ fn repeat_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     if !report.within && !has_failed {
         overlap_ui(ui, report.overlap);
     }
-    let both = both.clicked().then_some(EndFitAction::BothAtOnce);
-    tolerance.inner.map(EndFitAction::SetTolerance).or(both)
+    tolerance.inner.map(EndFitAction::SetTolerance)
 }
 
 /// Warn where the groups of vertices of both ends overlap.

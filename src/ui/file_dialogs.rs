@@ -1,10 +1,13 @@
 //! Asking for files: the system's dialogs where there are any, otherwise a field for the path.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
-use eframe::egui::{Align2, Context, Key, Label, RichText, TextEdit, Ui, vec2};
+use eframe::egui::text::{CCursor, CCursorRange};
+use eframe::egui::text_edit::TextEditState;
+use eframe::egui::{Align2, Context, Id, Key, Label, RichText, TextEdit, Ui, vec2};
 use rfd::FileDialog;
 
 use super::theme::{ROW, Tokens};
@@ -211,6 +214,7 @@ impl Prompt {
         let response = ui.add(field).accessible_name("Path");
         if std::mem::take(&mut self.fresh) {
             response.request_focus();
+            self.select_stem(ui, response.id);
         }
         if response.changed() {
             self.error = None;
@@ -240,6 +244,23 @@ impl Prompt {
             response.request_focus();
         }
         answer
+    }
+
+    /// Select the name without the folder and the extension, so that typing replaces it.
+    fn select_stem(&self, ui: &Ui, id: Id) {
+        let path = Path::new(&self.text);
+        let count = |text: Option<&OsStr>| {
+            let text = text
+                .filter(|_| path.extension().is_some())
+                .unwrap_or_default();
+            text.to_string_lossy().chars().count()
+        };
+        let (stem, name) = (count(path.file_stem()), count(path.file_name()));
+        let start = self.text.chars().count() - name;
+        let range = CCursorRange::two(CCursor::new(start), CCursor::new(start + stem));
+        let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
+        state.cursor.set_char_range(Some(range));
+        state.store(ui.ctx(), id);
     }
 
     /// Whether a path can be used as it is; otherwise the remark says why not.

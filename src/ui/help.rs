@@ -100,6 +100,10 @@ pub fn take_key(context: &Context) -> Option<Topic> {
     if !context.input(|input| input.key_pressed(Key::F1) && input.modifiers.is_none()) {
         return None;
     }
+    // A page would hide a drag, which goes on under it.
+    if context.input(|input| input.pointer.any_down()) {
+        return None;
+    }
     let pointer = context.input(|input| input.pointer.latest_pos());
     let pointer = pointer.and_then(|at| Some((context.layer_id_at(at)?, at)));
     let focused = context.memory(|memory| memory.focused());

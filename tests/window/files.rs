@@ -7,7 +7,7 @@ use batten::document::Document;
 use batten::editor::Editor;
 use batten::geometry::expressions::LengthUnit;
 use batten::io::disk;
-use eframe::egui::{DroppedFile, Key, Modifiers, Pos2, Vec2};
+use eframe::egui::{DroppedFile, Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
 
 use super::hand::*;
@@ -67,6 +67,35 @@ fn in_mid_drag() -> Window {
     begin_drag(&mut window, from);
     assert!(window.state().editor().hand().is_dragging());
     window
+}
+
+#[test]
+fn keys_that_open_dialogs_take_a_drag_back() {
+    for (modifiers, key) in [
+        (Modifiers::NONE, Key::F1),
+        (Modifiers::COMMAND, Key::P),
+        (Modifiers::COMMAND, Key::I),
+        (Modifiers::COMMAND, Key::E),
+    ] {
+        let mut window = in_mid_drag();
+        window.key_press_modifiers(modifiers, key);
+        window.step();
+        window.step();
+        let editor = window.state().editor();
+        assert!(!editor.hand().is_dragging(), "{key:?}");
+        assert!(!editor.workspace().is_modified(), "{key:?}");
+    }
+}
+
+#[test]
+fn typing_replaces_the_name_that_is_proposed_for_a_file() {
+    let mut window = open_window();
+    choose(&mut window, &["File", "Export DXF…"]);
+    window.event(Event::Text("hull".to_owned()));
+    window.run();
+    let field = window.get_by_label("Path");
+    let path = field.value().unwrap_or_default();
+    assert!(path.ends_with("/hull.dxf"), "{path}");
 }
 
 /// What would lose unsaved changes, in the menus.
