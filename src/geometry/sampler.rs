@@ -428,10 +428,10 @@ macro_rules! for_every_degree {
 /// The evaluation of a number a vertex, by degree, less 1.
 static NUMBERS: [OfNumbers; MAX_DEGREE] = for_every_degree!(of_numbers);
 
-/// The evaluation of points alone, by degree, less 1.
+/// The functions that evaluate points alone; entry n - 1 is for degree n.
 static POINTS: [OfVertices; MAX_DEGREE] = for_every_degree!(points_alone);
 
-/// The evaluation of vertices, by degree, less 1.
+/// The functions that evaluate vertices; entry n - 1 is for degree n.
 static VERTICES: [OfVertices; MAX_DEGREE] = for_every_degree!(of_vertices);
 
 /// Divide a batch of homogeneous derivatives by the weight (Leibniz' rule) and move the points

@@ -66,28 +66,28 @@ const FROM: Parameter = Parameter {
     name: "from",
     label: "From",
     help: "The parameter where the curve begins; with a step, the one of vertex 0",
-    kind: Kind::number(ANY, |_| "where the reference begins"),
+    kind: Kind::optional_number(ANY, |_| "where the reference begins"),
 };
 
 const TO: Parameter = Parameter {
     name: "to",
     label: "To",
     help: "The parameter where the curve ends; of a periodic curve that runs once round if it is not given",
-    kind: Kind::number(ANY, |_| "where the reference ends"),
+    kind: Kind::optional_number(ANY, |_| "where the reference ends"),
 };
 
 const STEP: Parameter = Parameter {
     name: "step",
     label: "Step",
-    help: "How far the parameters of neighbouring vertices lie apart: vertex i belongs to from + i · step",
-    kind: Kind::number(POSITIVE, |_| "even parts from start to end"),
+    help: "Distance between the parameters of neighbouring vertices",
+    kind: Kind::optional_number(POSITIVE, |_| "even parts from start to end"),
 };
 
 const COUNT: Parameter = Parameter {
     name: "count",
     label: "Vertices",
     help: "The number of vertices",
-    kind: Kind::count(
+    kind: Kind::optional_count(
         MOST,
         false,
         |_| "from the tolerance; without one 20, up to 640 while corrections grow",
@@ -98,7 +98,7 @@ const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
     help: "Largest distance of the curve from the reference; its levels must have the same features too",
-    kind: Kind::number(POSITIVE, |_| "none"),
+    kind: Kind::optional_number(POSITIVE, |_| "none"),
 };
 
 const SPACING: Parameter = Parameter {
@@ -133,7 +133,7 @@ const LEVELS: Parameter = Parameter {
 const FIT_ENDS: Parameter = Parameter {
     name: "fit-ends",
     label: "Exact ends",
-    help: "Bring both ends to the reference's points and directions; all vertices move evenly",
+    help: "Give both ends the reference's points and directions; all vertices share the correction",
     kind: Kind::Switch { default: false },
 };
 

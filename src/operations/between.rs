@@ -62,7 +62,7 @@ const ALPHA: Parameter = Parameter {
     name: "alpha",
     label: "Slope α",
     help: "Slope of the logarithmic curvature graph: −1 clothoid, 1 logarithmic spiral, 2 circle involute",
-    kind: Kind::number(ANY, |_| "−1, or from the curvatures"),
+    kind: Kind::optional_number(ANY, |_| "−1, or from the curvatures"),
 };
 
 const A: Parameter = spiral("a", "Superspiral a", 0.5);
@@ -102,7 +102,7 @@ const FROM_CURVATURE: Parameter = Parameter {
     name: "from-curvature",
     label: "From curvature",
     help: "The curvature with which it starts, positive where it turns left",
-    kind: Kind::number(ANY, |_| "free"),
+    kind: Kind::optional_number(ANY, |_| "free"),
 };
 
 const TO: Parameter = Parameter {
@@ -123,7 +123,7 @@ const TO_CURVATURE: Parameter = Parameter {
     name: "to-curvature",
     label: "To curvature",
     help: "The curvature with which it ends, positive where it turns left",
-    kind: Kind::number(ANY, |_| "free"),
+    kind: Kind::optional_number(ANY, |_| "free"),
 };
 
 const CURVATURES: Parameter = Parameter {
@@ -144,7 +144,7 @@ const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
     help: "How far the curve may be from the true segment",
-    kind: Kind::number(POSITIVE, |_| "1e-6 of its length"),
+    kind: Kind::optional_number(POSITIVE, |_| "1e-6 of its length"),
 };
 
 /// The operation: its description, and how it is checked and run.

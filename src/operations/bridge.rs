@@ -12,7 +12,7 @@ pub(super) const BRIDGE: Parameter = Parameter {
     name: "bridge",
     label: "Bridge vertices",
     help: "Vertices of the bridge; automatic: the number that makes legs and angles most even",
-    kind: Kind::count(MAX_BRIDGE, false, |_| "automatic"),
+    kind: Kind::optional_count(MAX_BRIDGE, false, |_| "automatic"),
 };
 
 /// Refuse what was cancelled as every operation does.

@@ -60,7 +60,7 @@ const ORDER: Parameter = Parameter {
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
-    help: "Largest miss of a target; angles, curvatures and slopes count as lengths",
+    help: "Largest miss of a target; angles, curvatures and slopes are converted to lengths",
     kind: Kind::Real(Number {
         from: Bound::Excluded(Amount::Number(0.0)),
         to: Bound::Unbounded,
@@ -91,7 +91,7 @@ macro_rules! end_parameters {
             point: Parameter {
                 name: $name,
                 label: concat!($label, " point"),
-                help: concat!("The point of the ", $name),
+                help: concat!("Where the curve has its ", $name),
                 kind: Kind::vector(false, |input| kept(input, $end, |_| true, "where it is")),
             },
             direction: Parameter {
@@ -110,7 +110,7 @@ macro_rules! end_parameters {
                     $name,
                     "; of a planar curve positive where it turns left"
                 ),
-                kind: Kind::number(ANY, |input| {
+                kind: Kind::optional_number(ANY, |input| {
                     kept(input, $end, |it| it.curvature.is_some(), "free")
                 }),
             },
@@ -122,7 +122,7 @@ macro_rules! end_parameters {
                     $name,
                     ", by arc length"
                 ),
-                kind: Kind::number(ANY, |input| {
+                kind: Kind::optional_number(ANY, |input| {
                     kept(input, $end, |it| it.slope.is_some(), "free")
                 }),
             },

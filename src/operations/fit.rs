@@ -35,21 +35,21 @@ const COUNT: Parameter = Parameter {
     name: "count",
     label: "Vertices",
     help: "The number of vertices",
-    kind: Kind::count(usize::MAX, false, |_| "from the points or the tolerance"),
+    kind: Kind::optional_count(usize::MAX, false, |_| "from the points or the tolerance"),
 };
 
 const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
     help: "How many extrema of the curvature the curve has, proved",
-    kind: Kind::count(usize::MAX, false, |_| "any number"),
+    kind: Kind::optional_count(usize::MAX, false, |_| "any number"),
 };
 
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
     help: "How far points may be from the curve, outliers aside; the curve is as fair as this allows",
-    kind: Kind::number(POSITIVE, |_| "none"),
+    kind: Kind::optional_number(POSITIVE, |_| "none"),
 };
 
 /// The operation: its description, and how it is run.

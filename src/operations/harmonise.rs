@@ -84,28 +84,28 @@ const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
     help: "Curvature extrema that remain; those with a prominence of 5 % of its range stand out",
-    kind: Kind::count(usize::MAX, false, STANDING_OUT),
+    kind: Kind::optional_count(usize::MAX, false, STANDING_OUT),
 };
 
 const INFLECTIONS: Parameter = Parameter {
     name: "inflections",
     label: "Inflections",
     help: "How many inflections are to be left; of a curve in space, zeros of the torsion",
-    kind: Kind::count(usize::MAX, false, STANDING_OUT),
+    kind: Kind::optional_count(usize::MAX, false, STANDING_OUT),
 };
 
 const TORSION_EXTREMA: Parameter = Parameter {
     name: "torsion-extrema",
     label: "Torsion extrema",
     help: "How many extrema of the torsion of a curve in space are to be left",
-    kind: Kind::count(usize::MAX, true, STANDING_OUT),
+    kind: Kind::optional_count(usize::MAX, true, STANDING_OUT),
 };
 
 const MAX_DEVIATION: Parameter = Parameter {
     name: "max-deviation",
     label: "Deviation up to",
     help: "How far the curve may move at most",
-    kind: Kind::number((Bound::Included(0.0), Bound::Unbounded), |_| "any"),
+    kind: Kind::optional_number((Bound::Included(0.0), Bound::Unbounded), |_| "any"),
 };
 
 /// The operation: its description, and how it is checked and run.

@@ -119,7 +119,7 @@ impl Kind {
     }
 
     /// One number, or none.
-    pub(super) const fn number(limits: Limits, none: Meaning) -> Self {
+    pub(super) const fn optional_number(limits: Limits, none: Meaning) -> Self {
         Self::List {
             count: 1..=1,
             whole: false,
@@ -131,7 +131,7 @@ impl Kind {
     }
 
     /// One whole number, or none.
-    pub(super) const fn count(most: usize, in_space: bool, none: Meaning) -> Self {
+    pub(super) const fn optional_count(most: usize, in_space: bool, none: Meaning) -> Self {
         Self::List {
             count: 1..=1,
             whole: true,

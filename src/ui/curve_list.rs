@@ -18,7 +18,7 @@ use crate::editor::{Command, Editor, MenuOf, told};
 #[derive(Default)]
 pub struct CurveList {
     renaming: Option<Renaming>,
-    /// The active curve or reference whose row was brought into sight.
+    /// The curve or reference whose row the list scrolled to when it became active.
     in_sight: Option<CurveId>,
 }
 

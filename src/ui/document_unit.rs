@@ -13,7 +13,7 @@ pub fn set(context: &Context, unit: Option<LengthUnit>) {
     context.data_mut(|data| data.insert_temp(id(), unit));
 }
 
-/// Write a length that is written without a unit with that of the document, if it has one.
+/// Append the document's unit, if it has one, to the text of a length.
 pub fn length(context: &Context, text: String) -> String {
     match get(context) {
         Some(unit) => format!("{text} {}", unit.symbol()),
@@ -21,7 +21,7 @@ pub fn length(context: &Context, text: String) -> String {
     }
 }
 
-/// Write a curvature that is written without a unit with one over that of the document.
+/// Append one over the document's unit, if it has one, to the text of a curvature.
 pub fn curvature(context: &Context, text: String) -> String {
     match get(context) {
         Some(unit) => format!("{text} /{}", unit.symbol()),

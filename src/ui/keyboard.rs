@@ -129,7 +129,7 @@ pub fn asks_for_menu(context: &Context) -> bool {
     })
 }
 
-/// The meaning of keys.
+/// A command that a key asks for.
 pub enum KeyCommand {
     /// An action of the window's table.
     Action(Action),

@@ -1,4 +1,4 @@
-//! The scene on the canvas, by the table of colours and forms.
+//! Paints the scene on the canvas.
 
 use std::f64::consts::{PI, TAU};
 
@@ -110,7 +110,7 @@ fn kept_clear(brush: &Brush<'_>, scene: &Scene) -> Vec<Pos2> {
 }
 
 impl Brush<'_> {
-    /// Paint comb, evolute and closed polygon behind the curve they derive from.
+    /// Paint comb, evolute and both polygons, behind the curve.
     fn derived(&self, curve: &CurveScene) {
         let fade = fading(curve);
         let tokens = self.tokens;

@@ -129,6 +129,7 @@ static LIGHT: Tokens = Tokens::new(false);
 impl Tokens {
     /// The table of colours: in the dark theme, in the light theme.
     const fn new(dark: bool) -> Self {
+        let comb = pick(dark, [0x5B9BF5, 0x2F6FD0]);
         Self {
             background: pick(dark, [0x14161A, 0xFBFBFA]),
             panel: pick(dark, [0x1B1E24, 0xF1F1EF]),
@@ -171,8 +172,8 @@ impl Tokens {
             joints: pick(dark, [0x94A3B8, 0x64748B]),
             reference: pick(dark, [0x94A3B8, 0x64748B]),
             evolute: pick(dark, [0xA78BFA, 0x6D4AE0]),
-            comb: pick(dark, [0x5B9BF5, 0x2F6FD0]),
-            comb_teeth: at_35_percent(pick(dark, [0x5B9BF5, 0x2F6FD0])),
+            comb,
+            comb_teeth: at_35_percent(comb),
             target: pick(dark, [0xF472B6, 0xC2257A]),
             good: pick(dark, [0x34D399, 0x0E7A55]),
             warning: pick(dark, [0xFB923C, 0xB04E08]),

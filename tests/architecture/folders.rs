@@ -17,8 +17,8 @@ struct Layer {
 
 const BASE: &str = "base";
 
-/// The last folder of the editor. `mod.rs` counts as one of its files: commands are methods of the
-/// `Editor` that it defines.
+/// The folder that the editor's `mod.rs` counts as: commands are methods of the `Editor` that it
+/// defines.
 const COMMANDS: &str = "commands";
 
 /// The order, as ARCHITECTURE.md tells it.

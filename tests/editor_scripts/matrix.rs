@@ -330,7 +330,7 @@ fn keys() -> Vec<(Modifiers, Key)> {
         Key::Down,
         Key::Character('1'),
     ];
-    let letters = ToolKind::ALL.map(|tool| Key::Character(tool.letter()));
+    let letters = ToolKind::ALL.map(|tool| Key::Character(tool.key()));
     let held = ['z', 'x', 'c', 'v', 'a', 'd'].map(Key::Character);
     let plain = plain.into_iter().chain(letters);
     let mut keys: Vec<(Modifiers, Key)> = plain.map(|key| (Modifiers::NONE, key)).collect();

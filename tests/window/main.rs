@@ -369,7 +369,7 @@ fn every_panel_and_dialog_has_names_in_both_themes_and_when_it_is_small() {
         let mut window = open_window_of(size.0, size.1);
         for _ in 0..2 {
             for tool in ToolKind::ALL {
-                let letter = Key::from_name(&tool.letter().to_uppercase().to_string());
+                let letter = Key::from_name(&tool.key().to_uppercase().to_string());
                 press(&mut window, Modifiers::NONE, letter.expect("a letter"));
                 assert_eq!(window.state().editor().hand().tool(), tool);
             }
@@ -410,7 +410,7 @@ fn an_empty_document_says_what_to_do() {
     choose(&mut window, &["File", "New"]);
     window.get_by_label("Nothing here yet");
     for tool in ToolKind::ALL {
-        let letter = Key::from_name(&tool.letter().to_uppercase().to_string());
+        let letter = Key::from_name(&tool.key().to_uppercase().to_string());
         press(&mut window, Modifiers::NONE, letter.expect("a letter"));
     }
 }

@@ -193,7 +193,7 @@ fn the_canvas_keeps_its_size_whatever_is_selected_and_done() {
         assert_eq!(window.get_by_label("Curves").rect(), side);
     };
     for tool in ToolKind::ALL {
-        let letter = Key::from_name(&tool.letter().to_uppercase().to_string());
+        let letter = Key::from_name(&tool.key().to_uppercase().to_string());
         press(&mut window, Modifiers::NONE, letter.expect("a letter"));
         check(&window);
     }

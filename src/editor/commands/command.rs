@@ -290,7 +290,7 @@ impl Command {
             Self::Follow(Follow::InHarmony) => plain(Key::Character('n')),
             Self::Follow(Follow::Softly) => plain(Key::Character('j')),
             Self::ToggleKeeping => plain(Key::Character('k')),
-            Self::Tool(tool) => plain(Key::Character(tool.letter())),
+            Self::Tool(tool) => plain(Key::Character(tool.key())),
             _ => None,
         }
     }

@@ -38,8 +38,9 @@ impl Operating<'_> {
         taken || offers_handles
     }
 
-    /// Leave a gesture beside the handles without effect on the operation; a double click on nothing
-    /// still shows everything.
+    /// Answer a gesture beside the handles, which does not change the operation.
+    ///
+    /// A double click on nothing shows everything; a press on a curve says how to leave the operation.
     fn leave_beside_handles(&mut self, gesture: Gesture) {
         let is_over_curve = |at: DVec2| {
             let hits = self.context().hits;

@@ -18,8 +18,10 @@ pub(super) fn check_existence(task: &Task) -> Result<(), BetweenError> {
     Ok(())
 }
 
-/// Refuse curvatures whose circles do not lie as those of a curve with monotone curvature do, by
-/// Kneser's theorem: one inside the other, and where the curvature changes its sign beside each other.
+/// Refuse end curvatures that no curve with monotone curvature has (Kneser's theorem).
+///
+/// If both have the same sign, one circle of curvature lies inside the other. If the signs differ, the
+/// circles lie apart.
 fn check_nested(task: &Task, [first, last]: [f64; 2]) -> Result<(), BetweenError> {
     if first == 0.0 || last == 0.0 {
         return Ok(());

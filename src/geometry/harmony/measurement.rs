@@ -18,9 +18,9 @@ const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 pub struct Harmony {
     /// Evenness of the polygon.
     pub figures: HarmonyFigures,
-    /// Whether the discrete curvature has the events of the curvature.
+    /// Whether the discrete curvature has the extrema and zeros of the curvature.
     pub curvature: Isogeometry,
-    /// Whether the discrete torsion of a polygon in space has the events of the torsion.
+    /// Whether the discrete torsion has the extrema and zeros of the torsion; `None` in a plane.
     pub torsion: Option<Isogeometry>,
     /// To which order the polygon is regular.
     pub regularity: Regularity,

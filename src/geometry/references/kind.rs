@@ -16,9 +16,9 @@ pub struct ReferenceKind {
     pub help: &'static str,
     /// The numbers that shape it, in the order in which they are offered.
     pub parameters: &'static [Parameter<Number>],
-    /// The interval of its parameter t that is drawn if none is given, for checked values.
+    /// The default interval of the parameter t, computed from checked values of the parameters.
     pub(super) interval: fn(&[f64]) -> [f64; 2],
-    /// The domain of t, for checked values.
+    /// The domain of t, computed from checked values of the parameters.
     pub(super) domain: fn(&[f64]) -> [f64; 2],
     /// Its coordinates.
     pub(super) coordinates: Coordinates,

@@ -73,8 +73,8 @@ pub static KIND: ReferenceKind = ReferenceKind {
 };
 
 thread_local! {
-    /// The spiral that this thread evaluated last: callers evaluate its points one after the other, and each
-    /// is an integral from 0.
+    /// A cache: the spiral that this thread evaluated last. Each point is an integral from 0, and the next
+    /// points of the same spiral use its pieces again.
     static LAST: RefCell<Option<Spiral>> = const { RefCell::new(None) };
 }
 
@@ -107,8 +107,9 @@ struct Piece {
     end: [f64; 2],
     /// The series about its middle.
     expansion: Expansion,
-    /// The antiderivatives of ρ cos ψ and ρ sin ψ about its middle, but for the point where it begins.
+    /// The antiderivatives of ρ cos ψ and ρ sin ψ about its middle, without their constants.
     integrals: [PowerSeries; 2],
+    /// The point where the piece begins.
     begin: [f64; 2],
 }
 

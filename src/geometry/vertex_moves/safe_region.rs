@@ -72,7 +72,7 @@ impl SafeRegion {
 }
 
 impl RegionSearch {
-    /// Prepare for a vertex. `proved` are the features of all segments of the curve.
+    /// Begin the search for one vertex. `proved` are the features of all segments of the curve.
     ///
     /// # Errors
     /// [`MoveError`] if the curve is not planar, if features of it are undecided, or if there is no

@@ -33,7 +33,7 @@ impl Writer {
         }
     }
 
-    /// A handle that is not given yet.
+    /// The handle that `take_handle` returns next.
     pub(super) fn next_handle(&self) -> u64 {
         self.next_handle
     }

@@ -101,7 +101,7 @@ pub struct ToolRow {
     /// The tool.
     pub tool: ToolKind,
     /// Its key.
-    pub letter: char,
+    pub key: char,
     /// Its name on screen.
     pub label: &'static str,
     /// Its tooltip.
@@ -159,10 +159,10 @@ static TOOLS: &[ToolRow] = &[
 ];
 
 /// A tool without a panel, in the group of the row before it.
-const fn row(tool: ToolKind, letter: char, label: &'static str, icon: &'static str) -> ToolRow {
+const fn row(tool: ToolKind, key: char, label: &'static str, icon: &'static str) -> ToolRow {
     ToolRow {
         tool,
-        letter,
+        key,
         label,
         help: "",
         icon,
@@ -223,8 +223,8 @@ impl ToolKind {
     }
 
     /// The tool's key.
-    pub fn letter(self) -> char {
-        self.row().letter
+    pub fn key(self) -> char {
+        self.row().key
     }
 }
 
@@ -238,7 +238,7 @@ mod tests {
 
     #[test]
     fn every_tool_has_a_help_text_and_a_key_of_its_own() {
-        let keys: BTreeSet<char> = TOOLS.iter().map(|row| row.letter).collect();
+        let keys: BTreeSet<char> = TOOLS.iter().map(|row| row.key).collect();
         assert_eq!(keys.len(), TOOLS.len());
         for row in TOOLS {
             let length = row.help.chars().count();
