@@ -8,12 +8,12 @@ use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 
 use super::choice_parser::{Assignments, ChoiceParser, no_such_parameter};
-use super::parsers::{format_parser, unit_parser};
+use super::parsers::{columns, format_parser, unit_parser};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::references::{KINDS, ReferenceCurve};
-use crate::io::Format;
-use crate::io::formats::{self, FORMATS};
+use crate::io::formats;
+use crate::io::{ColumnChoice, Format};
 use crate::operations::{
     ALL, Choice, Inputs, Kind, Operation, OperationError, Parameter, Value, find,
 };
@@ -25,6 +25,7 @@ const OUT: &str = "OUT";
 const CURVE: &str = "curve";
 const WITH: &str = "with";
 const FROM_FORMAT: &str = "from-format";
+const COLUMNS: &str = "columns";
 const TO_FORMAT: &str = "to-format";
 const ASSUME_UNIT: &str = "assume-unit";
 const BEST: &str = "best";
@@ -48,6 +49,8 @@ pub(super) struct Given {
     pub(super) input: Option<PathBuf>,
     /// The format to read, if it is told.
     pub(super) from_format: Option<&'static Format>,
+    /// The columns of points in a table, if they are told.
+    pub(super) columns: Option<ColumnChoice>,
     /// The file to write.
     pub(super) out: PathBuf,
     /// The format to write, if it is told.
@@ -151,6 +154,7 @@ impl Given {
             input,
             second: path(SECOND),
             from_format: format(FROM_FORMAT),
+            columns: matches.try_get_one(COLUMNS).ok().flatten().cloned(),
             out: path(OUT).unwrap_or_default(),
             to_format: format(TO_FORMAT),
             curves: [CURVE, WITH].map(name),
@@ -225,6 +229,8 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
             "The format to read, whatever the file's extension; needed for the standard input",
             format_parser(formats::readable()),
         ));
+        let choice = option(COLUMNS).value_name("COLUMNS").value_parser(columns);
+        command = command.arg(choice.help("The columns of x, y and, in space, z in a table of points, by numbers from 1 or by names"));
         let unit = option(ASSUME_UNIT).value_name("UNIT");
         let unit = unit.value_parser(unit_parser());
         command = command.arg(unit.help("The unit of a file that states none"));
@@ -238,7 +244,7 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
     command = command.arg(format_argument(
         TO_FORMAT,
         "The format to write, whatever the file's extension; needed for the standard output",
-        format_parser(FORMATS),
+        format_parser(formats::writable()),
     ));
     if has_curves {
         let curve = match operation.inputs {

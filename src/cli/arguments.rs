@@ -8,13 +8,15 @@ use clap::{CommandFactory, Error, Parser, Subcommand};
 use super::apply::Application;
 use super::apply_arguments::ApplyArguments;
 use super::ends::{Destination, Source};
-use super::parsers::{example_parser, format_parser, parameter, polygon_parser, unit_parser};
+use super::parsers::{
+    columns, example_parser, format_parser, parameter, polygon_parser, unit_parser,
+};
 use crate::document::quoted;
 use crate::geometry::PolygonKind;
 use crate::geometry::expressions::LengthUnit;
-use crate::io::Format;
 use crate::io::examples::Example;
-use crate::io::formats::{self, FORMATS};
+use crate::io::formats;
+use crate::io::{ColumnChoice, Format};
 
 /// How like a command a word must be to be taken for one misspelled, as 0 to 1.
 const LEAST_LIKENESS: f64 = 0.7;
@@ -23,7 +25,7 @@ const LEAST_LIKENESS: f64 = 0.7;
 #[derive(Debug, Parser)]
 #[command(name = "batten", version, args_conflicts_with_subcommands = true)]
 #[command(
-    after_help = "Formats are told by their extensions: .batten and .csv are read and written, .dxf is written.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place, or what was asked for is not reached; 2 bad usage."
+    after_help = "Formats are told by their extensions: .batten, .csv, .dat, .txt, .xyz and .pts are read and written, .gpx is read, .dxf is written.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place, or what was asked for is not reached; 2 bad usage."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
@@ -45,7 +47,7 @@ enum Command {
         #[arg(required_unless_present = "list")]
         out: Option<PathBuf>,
         /// The format to write, whatever the file's extension; needed for the standard output
-        #[arg(long, value_name = "FORMAT", value_parser = format_parser(FORMATS))]
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::writable()))]
         to_format: Option<&'static Format>,
         /// List the examples instead
         #[arg(long, conflicts_with_all = ["name", "out", "to_format"])]
@@ -69,8 +71,11 @@ enum Command {
         /// The format to read, whatever the file's extension; needed for the standard input
         #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::readable()))]
         from_format: Option<&'static Format>,
+        /// The columns of x, y and, in space, z in a table of points, by numbers from 1 or by names
+        #[arg(long, value_name = "COLUMNS", value_parser = columns)]
+        columns: Option<ColumnChoice>,
         /// The format to write, whatever the file's extension; needed for the standard output
-        #[arg(long, value_name = "FORMAT", value_parser = format_parser(FORMATS))]
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::writable()))]
         to_format: Option<&'static Format>,
         /// The polygon to write
         ///
@@ -102,6 +107,9 @@ enum Command {
         /// The format to read, whatever the file's extension; needed for the standard input
         #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::readable()))]
         from_format: Option<&'static Format>,
+        /// The columns of x, y and, in space, z in a table of points, by numbers from 1 or by names
+        #[arg(long, value_name = "COLUMNS", value_parser = columns)]
+        columns: Option<ColumnChoice>,
         /// Parameters at which to evaluate every curve, each from 0 to the number of segments
         #[arg(
             long,
@@ -161,9 +169,9 @@ impl Arguments {
     /// # Errors
     /// The usage, if a word is neither a command nor a file, or a format is missing.
     pub(super) fn checked(self) -> Result<Task, Error> {
-        let source = |name, path, format| {
+        let source = |name, path, format, columns| {
             let needed = "--from-format says what the standard input holds, and is needed with “-”";
-            Source::new(path, format).ok_or_else(|| missing(name, needed))
+            Source::new(path, format, columns).ok_or_else(|| missing(name, needed))
         };
         let destination = |name, path, format| {
             let needed = "--to-format says what the standard output gets, and is needed with “-”";
@@ -183,12 +191,13 @@ impl Arguments {
                 input,
                 out,
                 from_format,
+                columns,
                 to_format,
                 polygon,
                 assume_unit,
                 force,
             }) => Task::Convert {
-                source: source("convert", input, from_format)?,
+                source: source("convert", input, from_format, columns)?,
                 destination: destination("convert", out, to_format)?,
                 polygon,
                 assumed_unit: assume_unit,
@@ -199,11 +208,11 @@ impl Arguments {
                 operation: given.operation,
                 source: given
                     .input
-                    .map(|input| source("apply", input, given.from_format))
+                    .map(|input| source("apply", input, given.from_format, given.columns.clone()))
                     .transpose()?,
                 second: given
                     .second
-                    .map(|second| source("apply", second, given.from_format))
+                    .map(|second| source("apply", second, given.from_format, given.columns.clone()))
                     .transpose()?,
                 destination: destination("apply", given.out, given.to_format)?,
                 curves: given.curves,
@@ -216,9 +225,10 @@ impl Arguments {
             Some(Command::Inspect {
                 file,
                 from_format,
+                columns,
                 at,
             }) => Task::Inspect {
-                source: source("inspect", file, from_format)?,
+                source: source("inspect", file, from_format, columns)?,
                 at,
             },
         })

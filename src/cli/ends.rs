@@ -3,42 +3,68 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use anyhow::anyhow;
+
 use super::output;
 use crate::document::Document;
 use crate::geometry::expressions::LengthUnit;
-use crate::io::{Export, FileError, Format, Reading, disk, formats, shown_path};
+use crate::io::{
+    ColumnChoice, Export, FileError, FileProblem, Format, Problem, ReadError, Reading, disk,
+    formats, shown_path,
+};
 
 /// The name that stands for the standard input or output.
 pub(super) const STANDARD: &str = "-";
 
 /// A source of curves.
-pub(super) enum Source {
-    /// The standard input, in this format.
-    Standard(&'static Format),
-    /// A file, of this format whatever its name says.
-    File(PathBuf, Option<&'static Format>),
+pub(super) struct Source {
+    /// The file; `None`: the standard input.
+    path: Option<PathBuf>,
+    /// The format, whatever the file's name says.
+    format: Option<&'static Format>,
+    /// The columns of points in a table.
+    columns: Option<ColumnChoice>,
 }
 
 impl Source {
     /// Name a source; the standard input is one only if its format is given.
-    pub(super) fn new(path: PathBuf, format: Option<&'static Format>) -> Option<Self> {
-        if path.as_os_str() == STANDARD {
-            format.map(Self::Standard)
-        } else {
-            Some(Self::File(path, format))
-        }
+    pub(super) fn new(
+        path: PathBuf,
+        format: Option<&'static Format>,
+        columns: Option<ColumnChoice>,
+    ) -> Option<Self> {
+        let path = Some(path).filter(|path| path.as_os_str() != STANDARD);
+        let is_known = path.is_some() || format.is_some();
+        is_known.then_some(Self {
+            path,
+            format,
+            columns,
+        })
     }
 
     /// Read it, and print its remarks.
     ///
     /// # Errors
     /// [`FileError`], naming the source and the place in it.
-    pub(super) fn read(&self) -> Result<Reading, FileError> {
-        let reading = match self {
-            Self::Standard(format) => disk::read_stream(io::stdin().lock(), &self.name(), format),
-            Self::File(path, None) => disk::read_file(path),
-            Self::File(path, Some(format)) => disk::read_file_as(path, format),
-        }?;
+    pub(super) fn read(&self) -> anyhow::Result<Reading> {
+        let columns = self.columns.as_ref();
+        let reading = match (&self.path, self.format) {
+            (None, Some(format)) => {
+                disk::read_stream(io::stdin().lock(), &self.name(), format, columns)
+            }
+            (path, format) => {
+                let path = path.as_deref().unwrap_or(Path::new(STANDARD));
+                let read = disk::read_with_fingerprint(path, format, columns);
+                read.map(|(reading, _)| reading)
+            }
+        };
+        let reading = reading.map_err(|error| match &error.problem {
+            FileProblem::Content(ReadError {
+                problem: Problem::AmbiguousColumns(_),
+                ..
+            }) => anyhow!("{error} with --columns, as in --columns 1,2"),
+            _ => error.into(),
+        })?;
         output::report(&self.name(), &reading.remarks);
         Ok(reading)
     }
@@ -55,16 +81,9 @@ impl Source {
 
     /// What messages call it.
     pub(super) fn name(&self) -> String {
-        match self {
-            Self::Standard(_) => "standard input".to_owned(),
-            Self::File(path, _) => shown_path(path),
-        }
-    }
-
-    fn path(&self) -> Option<&Path> {
-        match self {
-            Self::Standard(_) => None,
-            Self::File(path, _) => Some(path),
+        match &self.path {
+            None => "standard input".to_owned(),
+            Some(path) => shown_path(path),
         }
     }
 }
@@ -105,7 +124,7 @@ impl Destination {
 
     /// Whether it is the file that a source is.
     pub(super) fn is(&self, source: &Source) -> bool {
-        match (self, source.path()) {
+        match (self, &source.path) {
             (Self::File(path, _), Some(source)) => disk::is_same_file(source, path),
             _ => false,
         }

@@ -5,7 +5,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use crate::geometry::PolygonKind;
 use crate::geometry::expressions::LengthUnit;
 use crate::io::examples::{EXAMPLES, Example};
-use crate::io::{Format, formats};
+use crate::io::{ColumnChoice, Format, formats};
 
 /// Read a format by its extension.
 pub(super) fn format_parser(
@@ -14,6 +14,11 @@ pub(super) fn format_parser(
     let formats = formats.into_iter();
     let names = PossibleValuesParser::new(formats.map(Format::extension));
     names.try_map(|name| formats::find(&name).ok_or("no such format"))
+}
+
+/// Read columns by their numbers, counted from 1, or by their names.
+pub(super) fn columns(text: &str) -> Result<ColumnChoice, &'static str> {
+    text.parse()
 }
 
 pub(super) fn example_parser() -> impl TypedValueParser<Value = Example> {

@@ -1,6 +1,7 @@
 //! Numbers of tables, whose decimals follow a point or, in many countries, a comma.
 
 use super::error::{Place, Problem, ReadError};
+use super::reading::Remark;
 
 /// The decimal mark of a table, as far as the numbers read so far tell it.
 #[derive(Default)]
@@ -10,6 +11,8 @@ pub(super) struct Decimals {
     is_proved: bool,
     /// The first number whose comma can be one between thousands, with its line.
     doubtful: Option<(usize, String)>,
+    /// The lines of numbers that are too small for a double, with the first of them.
+    vanished: Option<(String, Vec<usize>)>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -50,6 +53,10 @@ impl Decimals {
             return Err(Problem::MixedDecimals(text.to_owned()));
         }
         self.mark = self.mark.or(mark);
+        if value == 0.0 && has_digits(text) {
+            let (_, lines) = self.vanished.get_or_insert((text.to_owned(), Vec::new()));
+            lines.push(line);
+        }
         if mark == Some(DecimalMark::Comma) {
             if !may_be_grouped(text) {
                 self.is_proved = true;
@@ -58,6 +65,12 @@ impl Decimals {
             }
         }
         Ok(value)
+    }
+
+    /// Take the remark on numbers other than 0 that are too small for a double.
+    pub(super) fn vanished(&mut self) -> Option<Remark> {
+        let (text, lines) = self.vanished.take()?;
+        Some(Remark::Vanished { text, lines })
     }
 
     /// Tell, after the last number, whether decimals follow a comma.
@@ -73,6 +86,17 @@ impl Decimals {
             _ => Ok(self.mark == Some(DecimalMark::Comma)),
         }
     }
+}
+
+/// Whether a text is a finite number, with either decimal mark.
+pub(super) fn is_number(text: &str) -> bool {
+    Decimals::default().number(text, "x", 0).is_ok()
+}
+
+/// Whether a number is written with a digit other than 0 before its exponent.
+fn has_digits(text: &str) -> bool {
+    let digits = text.split(['e', 'E']).next().unwrap_or_default();
+    digits.bytes().any(|digit| (b'1'..=b'9').contains(&digit))
 }
 
 /// Whether a number with a comma can be a whole one with its thousands set apart, such as 12,345.

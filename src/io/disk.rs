@@ -16,6 +16,7 @@ use super::format::Format;
 use super::formats;
 use super::loss::{Export, LossReport};
 use super::reading::Reading;
+use super::table_columns::ColumnChoice;
 use crate::document::Document;
 use crate::geometry::PolygonKind;
 
@@ -36,18 +37,25 @@ const SUFFIX: &str = "0";
 /// # Errors
 /// [`FileError`], naming the file and the place in it.
 pub fn read_file(path: &Path) -> Result<Reading, FileError> {
-    let (reading, _) = read_with_fingerprint(path)?;
+    let (reading, _) = read_with_fingerprint(path, None, None)?;
     Ok(reading)
 }
 
-/// Read the curves of a file as [`read_file`] does, with the fingerprint of its bytes.
+/// Read the curves of a file as [`read_file`] does, with the fingerprint of its bytes; `format` is one that
+/// is given, whatever the name, and `choice` names the columns of points.
 ///
 /// # Errors
 /// As [`read_file`].
-pub fn read_with_fingerprint(path: &Path) -> Result<(Reading, Fingerprint), FileError> {
-    let format = formats::to_read(path).map_err(FileError::at(path))?;
+pub fn read_with_fingerprint(
+    path: &Path,
+    format: Option<&Format>,
+    choice: Option<&ColumnChoice>,
+) -> Result<(Reading, Fingerprint), FileError> {
+    let format = format.map_or_else(|| formats::to_read(path), Ok);
+    let format = format.map_err(FileError::at(path))?;
     let bytes = read_bytes(path).map_err(FileError::at(path))?;
-    let reading = format.read(&bytes).map_err(FileError::at(path))?;
+    let reading = format.read_columns(&bytes, choice);
+    let reading = reading.map_err(FileError::at(path))?;
     Ok((reading, Fingerprint::of(&bytes)))
 }
 
@@ -57,23 +65,21 @@ pub fn fingerprint(path: &Path) -> Option<Fingerprint> {
     Some(Fingerprint::of(&bytes))
 }
 
-/// Read the curves of a file of a given format, whatever its name.
-///
-/// # Errors
-/// [`FileError`], naming the file and the place in it.
-pub fn read_file_as(path: &Path, format: &Format) -> Result<Reading, FileError> {
-    let bytes = read_bytes(path).map_err(FileError::at(path))?;
-    format.read(&bytes).map_err(FileError::at(path))
-}
-
-/// Read the curves of a stream to its end; `name` is what messages call it.
+/// Read the curves of a stream to its end; `name` is what messages call it, `choice` names the columns of
+/// points.
 ///
 /// # Errors
 /// [`FileError`], with the name and the place in the stream.
-pub fn read_stream(stream: impl Read, name: &str, format: &Format) -> Result<Reading, FileError> {
+pub fn read_stream(
+    stream: impl Read,
+    name: &str,
+    format: &Format,
+    choice: Option<&ColumnChoice>,
+) -> Result<Reading, FileError> {
     let name = Path::new(name);
     let bytes = limited_bytes(stream, MOST_BYTES).map_err(FileError::at(name))?;
-    format.read(&bytes).map_err(FileError::at(name))
+    let reading = format.read_columns(&bytes, choice);
+    reading.map_err(FileError::at(name))
 }
 
 /// Whether two paths lead to one file that exists.

@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::table_column::TableColumn;
 use crate::document::{EditError, cut, escaped, quoted};
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::ReferenceError;
 use crate::geometry::{MAX_DEGREE, PolygonError, PolygonKind, counted};
 
@@ -239,6 +241,46 @@ pub enum Problem {
         "the table does not say which curve its vertices make: put a line like “# degree=3 polygon=float periodic=false name=curve” above the line with the column names"
     )]
     NoTableHeader,
+    /// A table has no rows that could be points.
+    #[error("there are no points: no line has two numbers or more")]
+    NoPoints,
+    /// Columns are chosen where there are none to choose.
+    #[error("columns can only be chosen in a table of points")]
+    NoChoice,
+    /// A column is chosen that the table does not have.
+    #[error("the table has no column {column}: it has {}", listed(.known))]
+    NoSuchColumn {
+        /// The column, as it is chosen.
+        column: String,
+        /// The columns that there are.
+        known: Vec<TableColumn>,
+    },
+    /// A table of points does not tell which columns are x and y.
+    #[error("which columns are x and y? There are {}: name them x and y, or choose them", listed(.0))]
+    AmbiguousColumns(Vec<TableColumn>),
+    /// Columns of points have different units.
+    #[error(
+        "the columns are in {} and in {}: give all coordinates in one unit",
+        .0[0].name(), .0[1].name()
+    )]
+    MixedUnits([LengthUnit; 2]),
+    /// The XML of a file is malformed.
+    #[error("{0}")]
+    Xml(String),
+    /// The XML holds something else than tracks and routes.
+    #[error("this is not a GPX file: it begins with <{}>", cut(.0))]
+    NotGpx(String),
+    /// A GPX file has no track or route of two points.
+    #[error("there is no track and no route")]
+    NoTrack,
+    /// A point of a GPX file has no position.
+    #[error("a point needs a {name}, a number from -{most} to {most}")]
+    NoPosition {
+        /// Latitude or longitude.
+        name: &'static str,
+        /// The largest number of degrees.
+        most: f64,
+    },
     /// The line above a table lacks the degree.
     #[error("the line lacks the degree: add, for example, degree=3 (from 1 to {MAX_DEGREE})")]
     NoDegree,
@@ -309,6 +351,11 @@ pub enum Problem {
     AmbiguousComma(String),
 }
 
+fn listed(columns: &[TableColumn]) -> String {
+    let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
+    columns.join(", ")
+}
+
 /// A reason why curves cannot be written in a format.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum WriteError {
@@ -318,6 +365,15 @@ pub enum WriteError {
         /// The name of the format.
         format: &'static str,
     },
+    /// There are no points.
+    #[error("there are no points to write: a {format} holds points alone")]
+    NoPoints {
+        /// The name of the format.
+        format: &'static str,
+    },
+    /// Files of the format are only read.
+    #[error("{0} files can be read but not written")]
+    ReadOnly(&'static str),
     /// A curve has more vertices than the format can count.
     #[error(
         "{} has {vertices} vertices, and a {format} file can hold {most} a curve: split the curve",
@@ -350,6 +406,16 @@ pub enum FormatError {
         /// The extension.
         extension: String,
         /// The extensions that could be used.
+        known: String,
+    },
+    /// The format is only read.
+    #[error(
+        "{format} files can be read but not written: the formats that can be written are {known}"
+    )]
+    NotWritable {
+        /// The name of the format.
+        format: &'static str,
+        /// The extensions that can be written.
         known: String,
     },
     /// The format is only written.

@@ -6,6 +6,7 @@ use std::hash::{Hash, Hasher};
 use super::error::{Problem, ReadError, WriteError};
 use super::loss::{Export, LossReport};
 use super::reading::Reading;
+use super::table_columns::ColumnChoice;
 use crate::document::Document;
 use crate::geometry::PolygonKind;
 
@@ -17,8 +18,10 @@ pub struct Format {
     pub extensions: &'static [&'static str],
     /// Reads the bytes of a file; `None` if the format is only written.
     pub(super) read: Option<ReadBytes>,
-    /// Writes a document and reports what the file does not hold.
-    pub(super) write: WriteDocument,
+    /// Reads a file whose points are in chosen columns; `None` if it has no columns.
+    pub(super) read_chosen: Option<ReadChosen>,
+    /// Writes a document and reports what the file does not hold; `None` if the format is only read.
+    pub(super) write: Option<WriteDocument>,
     /// Whether it holds matches and unknown keys; then a document can be saved in it.
     pub holds_documents: bool,
     /// The exports that the menu offers.
@@ -27,6 +30,9 @@ pub struct Format {
 
 /// Read the bytes of a file.
 type ReadBytes = fn(&[u8]) -> Result<Reading, ReadError>;
+
+/// Read the bytes of a file from chosen columns.
+type ReadChosen = fn(&[u8], &ColumnChoice) -> Result<Reading, ReadError>;
 
 /// Write a document by one of its polygons; without a choice by those that the format prefers.
 type WriteDocument =
@@ -67,13 +73,33 @@ impl Format {
         self.read.is_some()
     }
 
+    /// Whether documents can be written in the format.
+    pub fn can_write(&self) -> bool {
+        self.write.is_some()
+    }
+
     /// Read the bytes of a file.
     ///
     /// # Errors
     /// [`ReadError`] with the place. A format that [cannot be read](Self::can_read) says so.
     pub fn read(&self, bytes: &[u8]) -> Result<Reading, ReadError> {
-        let read = self.read.ok_or(Problem::Unreadable(self.name))?;
-        read(bytes)
+        self.read_columns(bytes, None)
+    }
+
+    /// Read the bytes of a file, the points of a table from chosen columns.
+    ///
+    /// # Errors
+    /// As [`Format::read`]; [`Problem::NoChoice`] if there are no columns to choose.
+    pub fn read_columns(
+        &self,
+        bytes: &[u8],
+        choice: Option<&ColumnChoice>,
+    ) -> Result<Reading, ReadError> {
+        match (self.read, choice) {
+            (Some(read), None) => read(bytes),
+            (Some(_), Some(choice)) => self.read_chosen.ok_or(Problem::NoChoice)?(bytes, choice),
+            (None, _) => Err(Problem::Unreadable(self.name).into()),
+        }
     }
 
     /// Write a document to bytes.
@@ -89,7 +115,8 @@ impl Format {
         polygon: Option<PolygonKind>,
     ) -> Result<Export, WriteError> {
         let mut losses = LossReport::new(self.name);
-        let bytes = (self.write)(document, polygon, &mut losses)?;
+        let write = self.write.ok_or(WriteError::ReadOnly(self.name))?;
+        let bytes = write(document, polygon, &mut losses)?;
         if !self.holds_documents {
             losses.add_matches(document, |_| true);
             losses.project_keys = !document.extras().is_empty();

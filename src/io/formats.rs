@@ -5,15 +5,22 @@ use std::path::Path;
 use super::dxf::DXF;
 use super::error::FormatError;
 use super::format::{Exporter, Format};
+use super::gpx::GPX;
+use super::point_table::POINT_TABLE;
 use super::project::PROJECT;
 use super::table::TABLE;
 
 /// Every format, in the order of dialogs and menus.
-pub static FORMATS: [&Format; 3] = [&PROJECT, &TABLE, &DXF];
+pub static FORMATS: [&Format; 5] = [&PROJECT, &TABLE, &POINT_TABLE, &GPX, &DXF];
 
 /// List the formats that can be read.
 pub fn readable() -> impl Iterator<Item = &'static Format> {
     FORMATS.into_iter().filter(|format| format.can_read())
+}
+
+/// List the formats that can be written.
+pub fn writable() -> impl Iterator<Item = &'static Format> {
+    FORMATS.into_iter().filter(|format| format.can_write())
 }
 
 /// List the exports of all formats in the order of the menu: those with a key first.
@@ -52,9 +59,17 @@ pub fn to_read(path: &Path) -> Result<&'static Format, FormatError> {
 /// Tell the format of a file to write by its extension, in upper or lower case.
 ///
 /// # Errors
-/// [`FormatError`] if there is no extension, or it is unknown.
+/// [`FormatError`] if there is no extension, it is unknown, or its format is only read.
 pub fn to_write(path: &Path) -> Result<&'static Format, FormatError> {
-    by_extension(path, || extensions(FORMATS.into_iter()))
+    let known = || extensions(writable());
+    let format = by_extension(path, known)?;
+    match format.can_write() {
+        true => Ok(format),
+        false => Err(FormatError::NotWritable {
+            format: format.name,
+            known: known(),
+        }),
+    }
 }
 
 fn by_extension(path: &Path, known: impl Fn() -> String) -> Result<&'static Format, FormatError> {
@@ -86,8 +101,12 @@ mod tests {
                 format.extension().to_uppercase(),
             ] {
                 let path = Path::new("folder.csv/some.name").with_extension(extension);
-                assert_eq!(to_write(&path), Ok(format));
+                assert_eq!(to_write(&path).is_ok(), format.can_write());
                 assert_eq!(to_read(&path).is_ok(), format.can_read());
+                assert_eq!(
+                    find(path.extension().unwrap().to_str().unwrap()),
+                    Some(format)
+                );
             }
         }
     }
@@ -98,21 +117,35 @@ mod tests {
             let error = to_read(Path::new(path)).unwrap_err();
             assert_eq!(error.to_string(), expected);
         };
+        let readable = ".batten, .csv, .dat, .txt, .xyz, .pts, .gpx";
         check(
-            "a.txt",
-            "“.txt” is not a format Batten knows: use one of .batten, .csv",
+            "a.docx",
+            &format!("“.docx” is not a format Batten knows: use one of {readable}"),
         );
         check(
             "folder.csv/arc",
-            "the name has no extension that tells its format: add one of .batten, .csv",
+            &format!("the name has no extension that tells its format: add one of {readable}"),
         );
         check(
             "a.dxf",
-            "DXF files can be written but not read: the formats that can be read are .batten, .csv",
+            &format!(
+                "DXF files can be written but not read: the formats that can be read are {readable}"
+            ),
         );
-        assert_eq!(
-            to_write(Path::new("a.docx")).unwrap_err().to_string(),
-            "“.docx” is not a format Batten knows: use one of .batten, .csv, .dxf",
+        let check = |path: &str, expected: &str| {
+            let error = to_write(Path::new(path)).unwrap_err();
+            assert_eq!(error.to_string(), expected);
+        };
+        let writable = ".batten, .csv, .dat, .txt, .xyz, .pts, .dxf";
+        check(
+            "a.docx",
+            &format!("“.docx” is not a format Batten knows: use one of {writable}"),
+        );
+        check(
+            "a.gpx",
+            &format!(
+                "GPX files can be read but not written: the formats that can be written are {writable}"
+            ),
         );
     }
 }

@@ -45,6 +45,8 @@ pub enum Loss {
     Targets,
     /// A reference as a whole.
     Reference,
+    /// A curve as a whole.
+    Curve,
     /// That an end is kept matched to another curve.
     Match {
         /// The end.
@@ -114,6 +116,11 @@ impl LossReport {
         self.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
     }
 
+    /// Add that a curve is not written.
+    pub fn add_curve(&mut self, curve: &Curve) {
+        self.add(curve, Loss::Curve);
+    }
+
     /// Add that a reference is not written.
     pub fn add_reference(&mut self, reference: &Reference) {
         self.losses.push((reference.name.clone(), Loss::Reference));
@@ -171,6 +178,7 @@ impl fmt::Display for LossReport {
                     format!("the {kind} polygon is drawn without its weights")
                 }
                 Loss::Reference => lost("references aren't"),
+                Loss::Curve => lost("curves aren't"),
                 Loss::Colour => lost("the colour isn't"),
                 Loss::Hidden => lost("visibility isn't"),
                 Loss::Locked => lost("the lock isn't"),

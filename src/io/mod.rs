@@ -6,6 +6,7 @@
 //! the bytes together with a [`LossReport`] of what the format could not hold. Nothing in here
 //! opens dialogs or changes a document.
 
+mod airfoil_order;
 pub mod autosave;
 mod decimals;
 pub mod disk;
@@ -16,10 +17,12 @@ mod file_match;
 mod fingerprint;
 mod format;
 pub mod formats;
+mod gpx;
 pub mod json_layout;
 mod layer_names;
 mod loss;
 mod object;
+mod point_table;
 mod polygon;
 mod project;
 mod project_curves;
@@ -30,9 +33,14 @@ mod project_values;
 mod reading;
 mod sessions;
 mod table;
+mod table_column;
+mod table_columns;
 mod table_header;
+mod table_lines;
+mod table_points;
 mod text;
 
+pub use airfoil_order::AirfoilOrder;
 pub use dxf::DXF;
 pub use error::{
     FileError, FileProblem, FormatError, Place, Problem, ReadError, WriteError, shown_path,
@@ -40,11 +48,15 @@ pub use error::{
 pub use file_match::{FileMatch, MatchSource};
 pub use fingerprint::Fingerprint;
 pub use format::{ExportRow, Exporter, Format};
+pub use gpx::GPX;
 pub use loss::{Export, Loss, LossReport};
+pub use point_table::POINT_TABLE;
 pub use project::PROJECT;
 pub use reading::{Owner, Reading, Remark, Remarks, counted_items};
 pub use sessions::{AbandonedSession, Session, Sessions};
 pub use table::TABLE;
+pub use table_column::TableColumn;
+pub use table_columns::ColumnChoice;
 
 #[cfg(test)]
 mod units;

@@ -34,7 +34,8 @@ pub static PROJECT: Format = Format {
     name: "Batten project",
     extensions: &["batten"],
     read: Some(read),
-    write,
+    write: Some(write),
+    read_chosen: None,
     holds_documents: true,
     exports: &[],
 };

@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 use std::fmt;
 
+use super::airfoil_order::AirfoilOrder;
 use super::file_match::FileMatch;
+use super::table_column::TableColumn;
 use crate::document::{Curve, CurveId, Document, EditError, EndMatch, Extras, Reference, quoted};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{PolygonKind, counted, rounded_up};
@@ -58,6 +60,49 @@ pub enum Remark {
         first: usize,
         /// Their number.
         count: usize,
+    },
+    /// The text of a table is not UTF-8, and read as Latin-1.
+    Latin1,
+    /// Lines of a table of points that hold none.
+    Skipped(Vec<usize>),
+    /// Lines of a table of points that repeat the point before.
+    Repeated(Vec<usize>),
+    /// Numbers of a table that are too small for a double, the first of them and all lines.
+    Vanished {
+        /// The first number.
+        text: String,
+        /// The lines.
+        lines: Vec<usize>,
+    },
+    /// Points of a table with a number that is too large for a double, the first of them and all lines.
+    TooLarge {
+        /// The first number.
+        text: String,
+        /// The lines.
+        lines: Vec<usize>,
+    },
+    /// Columns of a table with names of their own that are taken for x and y.
+    Columns(Vec<TableColumn>),
+    /// A word in the place of a unit in the name of a column.
+    UnknownUnit(String),
+    /// Points that are an airfoil in one of two orders.
+    Airfoil {
+        /// The name of the points.
+        name: String,
+        /// The order in the file.
+        order: AirfoilOrder,
+    },
+    /// The line of an airfoil file with counts of points that are not those of its sides.
+    Counts {
+        /// The line.
+        line: usize,
+    },
+    /// Positions on the earth that are read in metres about a place in degrees.
+    TangentPlane {
+        /// The latitude, north.
+        latitude: f64,
+        /// The longitude, east.
+        longitude: f64,
     },
     /// A curve whose float polygon gives it back only nearly.
     CurveOff {
@@ -148,6 +193,16 @@ impl Remarks {
         self.0.is_empty()
     }
 
+    /// Add the remarks of another part of the file.
+    pub(super) fn extend(&mut self, others: Self) {
+        self.0.extend(others.0);
+    }
+
+    /// Whether a remark is among them.
+    pub(super) fn contains(&self, remark: &Remark) -> bool {
+        self.0.contains(remark)
+    }
+
     fn iter(&self) -> impl Iterator<Item = &Remark> {
         self.0.iter()
     }
@@ -212,6 +267,41 @@ impl fmt::Display for Remarks {
             lines.push(format!("{keys} not known either"));
         }
         formatter.write_str(&lines.join("\n"))
+    }
+}
+
+/// Name lines with a verb: "line 3 was", "lines 3, 7 to 9 and 12 others were".
+fn lines_told(lines: &[usize], one: &str, many: &str) -> String {
+    let mut sorted = lines.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    let count = sorted.len();
+    let mut runs: Vec<[usize; 2]> = Vec::new();
+    for line in sorted {
+        match runs.last_mut() {
+            Some([_, last]) if *last + 1 == line => *last = line,
+            _ => runs.push([line, line]),
+        }
+    }
+    let length = |[first, last]: &[usize; 2]| last - first + 1;
+    let named = &runs[..runs.len().min(MOST_NAMED)];
+    let texts = named.iter().map(|run| match (run, length(run)) {
+        ([first, _], 1) => first.to_string(),
+        ([first, last], _) => format!("{first} to {last}"),
+    });
+    let mut texts: Vec<String> = texts.collect();
+    let others = count - named.iter().map(length).sum::<usize>();
+    if others > 0 {
+        texts.push(counted(others, "other", "others"));
+    }
+    let last = texts.pop().unwrap_or_default();
+    let listed = match texts.is_empty() {
+        true => last,
+        false => format!("{} and {last}", texts.join(", ")),
+    };
+    match count {
+        1 => format!("line {listed} {one}"),
+        _ => format!("lines {listed} {many}"),
     }
 }
 
@@ -284,6 +374,56 @@ impl fmt::Display for Remark {
                 "{}: read from its {kind} polygon, the curve may be off by up to {}",
                 curve(owner),
                 rounded_up(*by)
+            ),
+            Self::Latin1 => write!(formatter, "the text is not UTF-8 and was read as Latin-1"),
+            Self::Skipped(lines) => write!(
+                formatter,
+                "{} skipped (no point)",
+                lines_told(lines, "was", "were")
+            ),
+            Self::Repeated(lines) => write!(
+                formatter,
+                "{} left out (the same point as before)",
+                lines_told(lines, "was", "were")
+            ),
+            Self::Vanished { text, lines } => write!(
+                formatter,
+                "{} read as 0 in part (the number {} is too small)",
+                lines_told(lines, "was", "were"),
+                quoted(text)
+            ),
+            Self::TooLarge { text, lines } => write!(
+                formatter,
+                "{} left out (the number {} is too large)",
+                lines_told(lines, "was", "were"),
+                quoted(text)
+            ),
+            Self::Columns(columns) => {
+                let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
+                write!(
+                    formatter,
+                    "x and y are the columns {}",
+                    columns.join(" and ")
+                )
+            }
+            Self::UnknownUnit(unit) => write!(
+                formatter,
+                "the unit {} is not known: mm, cm, m and in are",
+                quoted(unit)
+            ),
+            Self::Airfoil { name, order } => {
+                write!(formatter, "{}: an airfoil in {order} order", quoted(name))
+            }
+            Self::Counts { line } => write!(
+                formatter,
+                "line {line}: the counts are not those of the two sides, which the blank line divides"
+            ),
+            Self::TangentPlane {
+                latitude,
+                longitude,
+            } => write!(
+                formatter,
+                "in metres, x east and y north of latitude {latitude:.6}°, longitude {longitude:.6}°; without elevations"
             ),
             Self::Comments { first, count: 1 } => {
                 write!(formatter, "line {first} is taken as a comment")

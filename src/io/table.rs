@@ -17,13 +17,14 @@
 //! A table without `degree=` holds points, which make a reference: the line above its column names
 //! may give it a name, as in `# name=scan`, or be left out, as may the names of the columns.
 //!
-//! Tables of spreadsheets are read too: the line of column names tells whether commas,
-//! semicolons or tabs stand between the columns, the numbers tell whether decimals follow a
-//! point or a comma. Other lines that begin with `#` are comments.
+//! Tables of other programs are read too: the rows tell whether commas, semicolons, tabs or blanks stand
+//! between the columns, and whether decimals follow a point or a comma. Other lines that begin with `#` are
+//! comments. The vertices of a curve are read strictly; points as far as there are any
+//! ([`table_points`](super::table_points)).
 
 use std::borrow::Cow;
 
-use csv::{ReaderBuilder, StringRecord, WriterBuilder};
+use csv::WriterBuilder;
 use glam::DVec3;
 
 use super::decimals::Decimals;
@@ -32,11 +33,13 @@ use super::format::{ExportRow, Format};
 use super::loss::{Loss, LossReport};
 use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
+use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, WEIGHT, vertex_columns};
 use super::table_header::{CurveHeader, TableHeader, begins_table};
+use super::table_lines::{Fields, LineContent, TableLine, lines, separator};
+use super::table_points::{PointReader, PointSection};
 use super::text::text;
 use crate::document::{Curve, Document, Reference};
 use crate::geometry::expressions::LengthUnit;
-use crate::geometry::references::{PointList, ReferenceCurve, ReferenceError, ReferenceForm};
 use crate::geometry::{PolygonError, PolygonKind};
 
 /// The row of the table of formats.
@@ -44,7 +47,8 @@ pub static TABLE: Format = Format {
     name: "CSV table",
     extensions: &["csv"],
     read: Some(read),
-    write,
+    read_chosen: Some(read_chosen),
+    write: Some(write),
     holds_documents: false,
     exports: &[
         export("Export float S-polygon as CSV…", PolygonKind::Float),
@@ -63,73 +67,186 @@ const fn export(label: &'static str, polygon: PolygonKind) -> ExportRow {
     }
 }
 
-/// The columns that a table can have, in the order in which they are written.
-const COLUMNS: [&str; 4] = ["x", "y", "z", "weight"];
-
 /// What begins the line that says the unit.
 const UNIT_LINE: &str = "# unit=";
-
-/// The column of weights, which points do not have.
-const WEIGHT: usize = 3;
 
 /// Read the curves and the lists of points of a file of tables.
 ///
 /// # Errors
 /// [`ReadError`] with the line, and with the curve and vertex where the numbers make no curve.
-fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
-    let mut comments = Comments::default();
-    let text = comments.blanked(text(bytes)?);
-    let separator = separator(&text);
-    let mut decimals = Decimals::default();
-    let mut blocks: Vec<Block> = Vec::new();
-    each_record(&text, separator, |line, record| {
-        if let Some(header) = header_text(record, separator) {
-            if !begins_table(&header) {
-                comments.add(line);
-                return Ok(());
-            }
-            let header = TableHeader::parse(&header);
-            let header = header.map_err(|problem| Place::line(line).problem(problem))?;
-            blocks.push(Block::new(line, header));
-            return Ok(());
-        }
-        if begins_points(record, blocks.last()) {
-            blocks.push(Block::new(line, TableHeader::default()));
-        }
-        let block = blocks.last_mut();
-        let block = block.ok_or_else(|| Place::line(line).problem(Problem::NoTableHeader))?;
-        block.take(line, record, &mut decimals)
-    })?;
-    if blocks.is_empty() {
-        return Err(Problem::NoTableHeader.into());
-    }
-    let decimal_commas = decimals.are_commas()?;
+pub(super) fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
+    read_columns(bytes, None)
+}
+
+/// Read a file as [`read`] does, the points from chosen columns.
+///
+/// # Errors
+/// As [`read`]; [`Problem::NoChoice`] if there are no points.
+pub(super) fn read_chosen(bytes: &[u8], choice: &ColumnChoice) -> Result<Reading, ReadError> {
+    read_columns(bytes, Some(choice))
+}
+
+fn read_columns(bytes: &[u8], choice: Option<&ColumnChoice>) -> Result<Reading, ReadError> {
     let mut remarks = Remarks::default();
-    if decimal_commas || separator != ',' {
-        remarks.add(Remark::Notation {
+    let text = decoded(bytes, &mut remarks)?;
+    let separator = separator(&text);
+    let mut comments = Comments::default();
+    let sections = sections(&text, separator, &mut comments)?;
+    let has_points = sections.iter().any(|it| matches!(it, Section::Points(_)));
+    if choice.is_some() && !has_points {
+        return Err(Problem::NoChoice.into());
+    }
+    let mut decimals = Decimals::default();
+    let mut reading = Reading::default();
+    let mut points = PointReader::new(choice, separator, comments.unit);
+    for section in sections {
+        match section {
+            Section::Curve(block) => {
+                let number = reading.curves.len() + 1;
+                let curve = block.into_curve(number, &mut decimals, &mut remarks)?;
+                reading.curves.push(curve);
+            }
+            Section::Points(section) => points.read(&section, &mut decimals)?,
+        }
+    }
+    let vanished = decimals.vanished();
+    let decimal_commas = decimals.are_commas()?;
+    if decimal_commas || [';', '\t'].contains(&separator) {
+        reading.remarks.add(Remark::Notation {
             separator,
             decimal_commas,
         });
     }
-    comments.remark(&mut remarks);
-    let mut reading = Reading {
-        unit: comments.unit,
-        ..Reading::default()
-    };
-    for mut block in blocks {
-        match block.header.curve.take() {
-            Some(header) => {
-                let number = reading.curves.len() + 1;
-                let curve = block.into_curve(header, number, &mut remarks)?;
-                reading.curves.push(curve);
+    comments.remark(&mut reading.remarks);
+    reading.remarks.extend(remarks);
+    points.finish(&mut reading);
+    if let Some(vanished) = vanished {
+        reading.remarks.add(vanished);
+    }
+    match reading.is_empty() {
+        true => Err(Problem::NoPoints.into()),
+        false => Ok(reading),
+    }
+}
+
+/// Take bytes as text with the line ends of this program. Points in other text than UTF-8 are read as
+/// Latin-1, which old titles are in: numbers are the same.
+fn decoded<'a>(bytes: &'a [u8], remarks: &mut Remarks) -> Result<Cow<'a, str>, ReadError> {
+    let text = match text(bytes) {
+        Err(error) if error.problem == Problem::NotUtf8 => {
+            let latin: String = bytes.iter().copied().map(char::from).collect();
+            if latin.lines().any(begins_curve) {
+                return Err(error);
             }
-            None => {
-                let number = reading.references.len() + 1;
-                reading.references.push(block.into_points(number)?);
+            remarks.add(Remark::Latin1);
+            Cow::Owned(latin)
+        }
+        text => Cow::Borrowed(text?),
+    };
+    // A carriage return alone ends a line too.
+    Ok(match text.contains('\r') {
+        true => Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")),
+        false => text,
+    })
+}
+
+fn begins_curve(line: &str) -> bool {
+    line.trim_start_matches(['"', ' ']).starts_with('#') && begins_table(line)
+}
+
+/// A part of a file: the table of a curve, or lines with points.
+enum Section<'a> {
+    Curve(Block<'a>),
+    Points(PointSection<'a>),
+}
+
+/// Divide a file where a line with # announces a table, and where names of columns follow numbers.
+fn sections<'a>(
+    text: &'a str,
+    separator: char,
+    comments: &mut Comments,
+) -> Result<Vec<Section<'a>>, ReadError> {
+    let mut sections: Vec<Section> = Vec::new();
+    for mut line in lines(text, separator) {
+        if let LineContent::Header(header) = &line.content {
+            let header = TableHeader::parse(header);
+            let header = header.map_err(|problem| Place::line(line.number).problem(problem))?;
+            sections.push(Section::announced(line.number, header));
+            continue;
+        }
+        if matches!(line.content, LineContent::Comment) {
+            match (commented_names(line.text, separator), sections.last()) {
+                (Some(names), None | Some(Section::Points(_))) => {
+                    line.content = LineContent::Fields(names);
+                }
+                _ => {
+                    comments.take(&line);
+                    continue;
+                }
             }
         }
+        let is_blank = matches!(line.content, LineContent::Blank);
+        let begins = !is_blank && sections.last().is_none_or(|last| last.ends_before(&line));
+        if begins {
+            sections.push(Section::Points(PointSection {
+                line: line.number,
+                ..PointSection::default()
+            }));
+        }
+        if let Some(section) = sections.last_mut() {
+            section.lines().push(line);
+        }
     }
-    Ok(Reading { remarks, ..reading })
+    Ok(sections)
+}
+
+/// Take a comment such as `# x y` for the names of columns.
+fn commented_names(line: &str, separator: char) -> Option<Fields<'_>> {
+    let names = line.trim_start_matches(['"', ' ', '\t', '#']);
+    let fields = [separator, ' '].map(|separator| Fields::of(names, separator));
+    let are_names = |fields: &Fields| ColumnNames::of(fields).coordinates().is_some();
+    fields.into_iter().find(are_names)
+}
+
+impl<'a> Section<'a> {
+    fn announced(line: usize, header: TableHeader) -> Self {
+        let lines = Vec::new();
+        match header.curve {
+            Some(curve) => Self::Curve(Block {
+                line,
+                header: curve,
+                name: header.name,
+                lines,
+            }),
+            None => Self::Points(PointSection {
+                line,
+                is_announced: true,
+                name: header.name,
+                lines,
+            }),
+        }
+    }
+
+    fn lines(&mut self) -> &mut Vec<TableLine<'a>> {
+        match self {
+            Self::Curve(block) => &mut block.lines,
+            Self::Points(section) => &mut section.lines,
+        }
+    }
+
+    /// Whether a line has the names of the columns of other points.
+    fn ends_before(&self, line: &TableLine) -> bool {
+        let fields = match &line.content {
+            LineContent::Fields(fields) if fields.numbers() == 0 => fields,
+            _ => return false,
+        };
+        let names = ColumnNames::of(fields);
+        names.coordinates().is_some()
+            && match self {
+                Self::Curve(block) => !names.has_weights() && block.has_columns(),
+                Self::Points(section) => section.has_rows(),
+            }
+    }
 }
 
 /// Write curves as tables of one of their polygons (default: float), and references that are points
@@ -142,9 +259,8 @@ fn write(
     polygon: Option<PolygonKind>,
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
-    let unit = document.unit();
-    let unit_line = unit.map(|unit| format!("{UNIT_LINE}{}\n", unit.symbol()));
-    let mut bytes = unit_line.unwrap_or_default().into_bytes();
+    let unit = document.unit().map(unit_line);
+    let mut bytes = unit.unwrap_or_default().into_bytes();
     let mut blocks = Vec::new();
     for (_, curve) in document.curves() {
         blocks.push(curve_block(curve, polygon.unwrap_or_default(), losses));
@@ -218,21 +334,9 @@ fn block(
     bytes.map_err(|error| error.into_error().into())
 }
 
-/// Whether a line of values begins a list of points that no line with a `#` announces: names of columns,
-/// or at the start of a file numbers, where no table waits for its columns.
-fn begins_points(record: &StringRecord, last: Option<&Block>) -> bool {
-    let names = columns(record);
-    let named = names.is_ok_and(|columns| !columns.contains(&WEIGHT));
-    match last {
-        None => named || are_coordinates(record),
-        Some(block) => named && !block.columns.is_empty(),
-    }
-}
-
-/// Whether a line of values has the coordinates of a point.
-fn are_coordinates(record: &StringRecord) -> bool {
-    let is_number = |text: &str| Decimals::default().number(text, "x", 0).is_ok();
-    (2..=3).contains(&record.len()) && record.iter().all(is_number)
+/// The line that says a unit.
+pub(super) fn unit_line(unit: LengthUnit) -> String {
+    format!("{UNIT_LINE}{}\n", unit.symbol())
 }
 
 /// The comments of a file, and the unit of length that the first line of this kind says.
@@ -244,37 +348,19 @@ struct Comments {
 }
 
 impl Comments {
-    /// Empty the lines of a text that are comments: what looks like a quotation mark in them is
-    /// none.
-    fn blanked<'a>(&mut self, text: &'a str) -> Cow<'a, str> {
-        let is_comment = |line: &str| line.trim_start().starts_with('#') && !begins_table(line);
-        if !text.lines().any(is_comment) {
-            return Cow::Borrowed(text);
-        }
-        let mut blanked = String::with_capacity(text.len());
-        for (index, line) in text.split('\n').enumerate() {
-            if index > 0 {
-                blanked.push('\n');
-            }
-            if is_comment(line) {
-                match unit_of(line).filter(|_| self.unit.is_none()) {
-                    Some(unit) => self.unit = Some(unit),
-                    None => self.add(index + 1),
-                }
-            } else {
-                blanked.push_str(line);
+    /// Take a comment, or the unit that it says.
+    fn take(&mut self, line: &TableLine) {
+        match unit_of(line.text).filter(|_| self.unit.is_none()) {
+            Some(unit) => self.unit = Some(unit),
+            None => {
+                self.first = if self.count == 0 {
+                    line.number
+                } else {
+                    self.first
+                };
+                self.count += 1;
             }
         }
-        Cow::Owned(blanked)
-    }
-
-    fn add(&mut self, line: usize) {
-        self.first = if self.count == 0 {
-            line
-        } else {
-            self.first.min(line)
-        };
-        self.count += 1;
     }
 
     fn remark(&self, remarks: &mut Remarks) {
@@ -291,70 +377,17 @@ fn unit_of(line: &str) -> Option<LengthUnit> {
     LengthUnit::of_symbol(symbol.trim_end_matches([',', ';', '\t', ' ', '\r']))
 }
 
-/// Find what stands between the columns, from the line with their names: the first line that
-/// neither is empty nor begins with `#`.
-fn separator(text: &str) -> char {
-    let mut lines = text.lines().map(|line| line.trim_start_matches(['"', ' ']));
-    let is_filled = |line: &str| !line.trim_matches([',', ';', '\t', ' ']).is_empty();
-    let names = lines.find(|line| is_filled(line) && !line.starts_with('#'));
-    let mut separators = [';', '\t'].into_iter();
-    let found = names.and_then(|names| separators.find(|separator| names.contains(*separator)));
-    found.unwrap_or(',')
-}
-
-/// Hand over each line of values with its number, but for lines without any value; the empty
-/// values that spreadsheets pad lines with are cut off.
-fn each_record(
-    text: &str,
-    separator: char,
-    mut take: impl FnMut(usize, &StringRecord) -> Result<(), ReadError>,
-) -> Result<(), ReadError> {
-    let mut reader = ReaderBuilder::new()
-        .delimiter(u8::try_from(separator).unwrap_or(b','))
-        .has_headers(false)
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let mut record = StringRecord::new();
-    let (mut line, mut counted) = (1, 0);
-    loop {
-        let more = reader.read_record(&mut record);
-        let more = more.map_err(|error| Problem::Table(error.to_string()))?;
-        if !more {
-            return Ok(());
-        }
-        // The position lies before the blank lines above the record, so these count too.
-        let start = record
-            .position()
-            .map_or(0, |position| position.byte() as usize);
-        let blank = text[start..].len() - text[start..].trim_start_matches(['\r', '\n']).len();
-        line += text[counted..start + blank].matches('\n').count();
-        counted = start + blank;
-        let filled = (0..record.len()).rev();
-        let mut filled = filled.filter(|index| !record[*index].trim().is_empty());
-        if let Some(last) = filled.next() {
-            record.truncate(last + 1);
-            take(line, &record)?;
-        }
-    }
-}
-
-/// Join a line that begins with `#` to the text it was before it was split into columns.
-fn header_text(record: &StringRecord, separator: char) -> Option<String> {
-    let is_header = record.get(0)?.trim_start().starts_with('#');
-    is_header.then(|| {
-        record
-            .iter()
-            .collect::<Vec<_>>()
-            .join(separator.encode_utf8(&mut [0; 4]))
-            .trim()
-            .to_owned()
-    })
-}
-
-/// A table as it is being read.
-struct Block {
+/// The table of a curve.
+struct Block<'a> {
     line: usize,
-    header: TableHeader,
+    header: CurveHeader,
+    name: Option<String>,
+    lines: Vec<TableLine<'a>>,
+}
+
+/// The vertices of a table.
+#[derive(Default)]
+struct Vertices {
     /// For each column of the table which one of [`COLUMNS`] it is.
     columns: Vec<usize>,
     vertices: Vec<DVec3>,
@@ -363,95 +396,40 @@ struct Block {
     lines: Vec<usize>,
 }
 
-impl Block {
-    fn new(line: usize, header: TableHeader) -> Self {
-        Self {
-            line,
-            header,
-            columns: Vec::new(),
-            vertices: Vec::new(),
-            weights: Vec::new(),
-            lines: Vec::new(),
-        }
-    }
-
-    fn take(
-        &mut self,
-        line: usize,
-        record: &StringRecord,
-        decimals: &mut Decimals,
-    ) -> Result<(), ReadError> {
-        let place = |problem| Place::line(line).problem(problem);
-        if self.columns.is_empty() && self.header.curve.is_none() && are_coordinates(record) {
-            self.columns = (0..record.len()).collect();
-        } else if self.columns.is_empty() {
-            self.columns = columns(record).map_err(place)?;
-            return Ok(());
-        }
-        let (found, needed) = (record.len(), self.columns.len());
-        if found != needed {
-            return Err(place(Problem::ValueCount { found, needed }));
-        }
-        let mut values = [0.0, 0.0, 0.0, 1.0];
-        for (text, column) in record.iter().zip(&self.columns) {
-            let value = decimals.number(text, COLUMNS[*column], line);
-            values[*column] = value.map_err(place)?;
-        }
-        let [x, y, z, weight] = values;
-        self.vertices.push(DVec3::new(x, y, z));
-        self.weights.push(weight);
-        self.lines.push(line);
-        Ok(())
-    }
-
-    /// Make a reference of the points, with this number, counted from 1.
-    fn into_points(self, number: usize) -> Result<Reference, ReadError> {
-        let name = self.header.name;
-        let name = name.unwrap_or_else(|| format!("points {number}"));
-        let place = |line: usize| Place {
-            line: Some(line),
-            ..Place::reference(number, &name)
-        };
-        if self.columns.contains(&WEIGHT) {
-            return Err(Place::line(self.line).problem(Problem::NoTableHeader));
-        }
-        let list = PointList::new(self.vertices);
-        let curve = list.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
-        let curve = curve.map_err(|error| {
-            let point = match error {
-                ReferenceError::BadPoint { index, .. } => self.lines.get(index),
-                _ => None,
-            };
-            place(point.copied().unwrap_or(self.line)).problem(error.into())
-        });
-        Ok(Reference::new(name.clone(), curve?))
+impl Block<'_> {
+    fn has_columns(&self) -> bool {
+        let mut lines = self.lines.iter();
+        lines.any(|line| matches!(line.content, LineContent::Fields(_)))
     }
 
     fn into_curve(
         self,
-        header: CurveHeader,
         number: usize,
+        decimals: &mut Decimals,
         remarks: &mut Remarks,
     ) -> Result<Curve, ReadError> {
-        let name = self.header.name;
+        let mut table = Vertices::default();
+        for line in &self.lines {
+            if let LineContent::Fields(fields) = &line.content {
+                let taken = table.take(line.number, fields, decimals);
+                taken.map_err(|problem| Place::line(line.number).problem(problem))?;
+            }
+        }
+        let name = self.name;
         let name = name.unwrap_or_else(|| format!("curve {number}"));
         let place = |line: usize| Place {
             line: Some(line),
             ..Place::curve(number, &name)
         };
-        if self.columns.is_empty() {
+        if table.columns.is_empty() {
             return Err(place(self.line).problem(Problem::NoColumns));
         }
-        let is_rational = self
-            .columns
-            .iter()
-            .any(|column| COLUMNS[*column] == "weight");
         let polygon = FilePolygon {
-            kind: header.kind,
-            degree: header.degree,
-            vertices: self.vertices,
-            weights: is_rational.then_some(self.weights),
-            periodic: header.periodic,
+            kind: self.header.kind,
+            degree: self.header.degree,
+            vertices: table.vertices,
+            weights: table.columns.contains(&WEIGHT).then_some(table.weights),
+            periodic: self.header.periodic,
         };
         let curve = polygon.into_curve(number, &name, remarks);
         curve.map_err(|problem| {
@@ -459,7 +437,7 @@ impl Block {
                 Problem::Polygon(
                     PolygonError::BadCoordinate { index, .. }
                     | PolygonError::BadWeight { index, .. },
-                ) => self.lines.get(*index),
+                ) => table.lines.get(*index),
                 _ => None,
             };
             place(vertex.copied().unwrap_or(self.line)).problem(problem)
@@ -467,26 +445,32 @@ impl Block {
     }
 }
 
-fn columns(record: &StringRecord) -> Result<Vec<usize>, Problem> {
-    let mut columns = Vec::with_capacity(COLUMNS.len());
-    for name in record.iter().map(str::trim) {
-        let known = COLUMNS
-            .iter()
-            .position(|column| name.eq_ignore_ascii_case(column));
-        match known {
-            Some(column) if !columns.contains(&column) => columns.push(column),
-            _ if columns.is_empty() && name.parse::<f64>().is_ok() => {
-                return Err(Problem::NoColumns);
-            }
-            _ => return Err(Problem::BadColumn(name.to_owned())),
+impl Vertices {
+    /// Take the names of the columns, then a vertex from each line.
+    fn take(
+        &mut self,
+        line: usize,
+        fields: &Fields,
+        decimals: &mut Decimals,
+    ) -> Result<(), Problem> {
+        if self.columns.is_empty() {
+            self.columns = vertex_columns(&fields.values)?;
+            return Ok(());
         }
-    }
-    for needed in [0, 1] {
-        if !columns.contains(&needed) {
-            return Err(Problem::MissingColumn(COLUMNS[needed]));
+        let (found, needed) = (fields.values.len(), self.columns.len());
+        if found != needed {
+            return Err(Problem::ValueCount { found, needed });
         }
+        let mut values = [0.0, 0.0, 0.0, 1.0];
+        for (text, column) in fields.values.iter().zip(&self.columns) {
+            values[*column] = decimals.number(text, COLUMNS[*column], line)?;
+        }
+        let [x, y, z, weight] = values;
+        self.vertices.push(DVec3::new(x, y, z));
+        self.weights.push(weight);
+        self.lines.push(line);
+        Ok(())
     }
-    Ok(columns)
 }
 
 #[cfg(test)]

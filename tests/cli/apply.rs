@@ -522,8 +522,8 @@ fn bad_values_and_bad_usage_are_told_apart() {
         "hull.batten: Start normal: only a curve in space has this, and the curve lies in the plane z = 0",
     );
     folder.refused(
-        &["apply", "reverse", &file, "out.txt"],
-        "out.txt: “.txt” is not a format Batten knows: use one of .batten, .csv, .dxf",
+        &["apply", "reverse", &file, "out.docx"],
+        "out.docx: “.docx” is not a format Batten knows: use one of .batten, .csv, .dat, .txt, .xyz, .pts, .dxf",
     );
     folder.refused(
         &["apply", "translate-end", &file, "out.batten"],

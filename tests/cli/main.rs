@@ -5,6 +5,7 @@ mod between;
 mod folder;
 mod inspect;
 mod streams;
+mod tables;
 
 use std::fs;
 use std::process::{Command as Process, Stdio};
@@ -55,8 +56,8 @@ fn examples_are_listed_and_written() {
     folder.misused(&["example"], "required");
     folder.misused(&["example", "arc"], "required");
     folder.refused(
-        &["example", "arc", "a.txt"],
-        "a.txt: “.txt” is not a format Batten knows: use one of .batten, .csv, .dxf",
+        &["example", "arc", "a.docx"],
+        "a.docx: “.docx” is not a format Batten knows: use one of .batten, .csv, .dat, .txt, .xyz, .pts, .dxf",
     );
 }
 
@@ -278,7 +279,7 @@ fn what_can_only_be_a_file_is_refused_as_one() {
         &["new.batten", "inspcet"],
         &format!("new.batten: {missing}"),
     );
-    let nameless = "the name has no extension that tells its format: add one of .batten, .csv";
+    let nameless = "the name has no extension that tells its format: add one of .batten, .csv, .dat, .txt, .xyz, .pts, .gpx";
     folder.refused(&["inspcet"], &format!("inspcet: {nameless}"));
     folder.refused(&["./convrt"], &format!("./convrt: {nameless}"));
 }
@@ -320,7 +321,7 @@ fn bad_input_is_refused_with_file_and_place() {
         );
         check(
             "a.dxf",
-            "DXF files can be written but not read: the formats that can be read are .batten, .csv",
+            "DXF files can be written but not read: the formats that can be read are .batten, .csv, .dat, .txt, .xyz, .pts, .gpx",
         );
         check(
             "gone.csv",

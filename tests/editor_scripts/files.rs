@@ -164,7 +164,7 @@ fn a_name_with_a_point_gets_its_extension() {
         ("hull v1.2", "hull v1.2.batten"),
         ("hull", "hull.batten"),
         ("hull.", "hull.batten"),
-        ("lines.txt", "lines.txt.batten"),
+        ("lines.doc", "lines.doc.batten"),
         ("upper.BATTEN", "upper.BATTEN"),
     ] {
         let path = folder.path().join(name);

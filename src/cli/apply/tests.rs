@@ -136,7 +136,7 @@ fn apply(
     let destination = Destination::new(given.out, given.to_format);
     let application = Application {
         operation,
-        source: given.input.and_then(|path| Source::new(path, None)),
+        source: given.input.and_then(|path| Source::new(path, None, None)),
         second: None,
         destination: destination.expect("a file"),
         curves: given.curves,

@@ -285,7 +285,7 @@ impl FileTask {
 }
 
 fn open(path: &Path, autosaver: Option<&Autosaver>) -> Result<FileResult, Refusal> {
-    let (mut reading, fingerprint) = disk::read_with_fingerprint(path)?;
+    let (mut reading, fingerprint) = disk::read_with_fingerprint(path, None, None)?;
     let text = format!("{} read from {}", reading.counted(), shown_path(path));
     let remarks = std::mem::take(&mut reading.remarks);
     let document = reading.into_document()?;
@@ -303,7 +303,7 @@ fn open(path: &Path, autosaver: Option<&Autosaver>) -> Result<FileResult, Refusa
 }
 
 fn reload(path: &Path) -> Result<FileResult, Refusal> {
-    let (mut reading, fingerprint) = disk::read_with_fingerprint(path)?;
+    let (mut reading, fingerprint) = disk::read_with_fingerprint(path, None, None)?;
     let remarks = std::mem::take(&mut reading.remarks);
     let text = format!("Reloaded from {}", shown_path(path));
     Ok(FileResult::Reloaded {

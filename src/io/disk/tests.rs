@@ -56,9 +56,9 @@ fn what_cannot_be_read_or_written_is_named() {
     check(read("folder.csv"), "folder.csv", "this is not a file");
     check(write("folder.csv"), "folder.csv", "this is not a file");
     check(
-        read("a.txt"),
-        "a.txt",
-        "“.txt” is not a format Batten knows",
+        read("a.docx"),
+        "a.docx",
+        "“.docx” is not a format Batten knows",
     );
     check(write("a"), "a", "the name has no extension");
     check(read("bad.batten"), "bad.batten", "line 1, column 1: EOF");
@@ -271,7 +271,7 @@ fn saves_at_the_same_time_do_not_disturb_each_other() {
 #[test]
 fn a_stream_is_read_under_its_name() {
     let stream = &b"# degree=1\nx,y\n0,0\n1,two\n"[..];
-    let error = read_stream(stream, "standard input", &TABLE).unwrap_err();
+    let error = read_stream(stream, "standard input", &TABLE, None).unwrap_err();
     assert_eq!(
         error.to_string(),
         "standard input: line 4: “two” in column y is not a number"

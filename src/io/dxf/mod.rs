@@ -26,7 +26,8 @@ pub static DXF: Format = Format {
     name: "DXF",
     extensions: &["dxf"],
     read: None,
-    write,
+    write: Some(write),
+    read_chosen: None,
     holds_documents: false,
     exports: &[ExportRow {
         label: "Export DXF…",

@@ -3,7 +3,7 @@
 use super::*;
 use crate::document::Colour;
 use crate::geometry::FloatPolygon;
-use crate::geometry::references::Placement;
+use crate::geometry::references::{Placement, PointList, ReferenceCurve, ReferenceForm};
 use crate::io::loss::Export;
 
 fn curve(name: &str, vertices: &[[f64; 3]], weights: Option<Vec<f64>>, periodic: bool) -> Curve {
@@ -131,7 +131,10 @@ fn what_is_wrong_is_named_with_its_place() {
     let hint = "the table does not say which curve its vertices make: put a line like “# degree=3 polygon=float periodic=false name=curve” above the line with the column names";
     check("", "the file is empty");
     check("\n \n", "the file is empty");
-    check(",,\n", hint);
+    check(
+        ",,\n",
+        "there are no points: no line has two numbers or more",
+    );
     check("\n\nx,y,weight\n0,0,1\n", &format!("line 3: {hint}"));
     check(
         "\n\nx,y\n0,0\n",
@@ -310,13 +313,11 @@ fn comments_are_passed_over_and_told() {
 #[test]
 fn a_table_whose_curve_is_not_told_is_refused() {
     let problem = |text: &str| read(text.as_bytes()).unwrap_err().problem;
-    for text in [
-        "a,b\n0,0\n1,1\n",
-        "# points\n0\n1\n",
-        "x,y,weight\n0,0,1\n1,1,1\n",
-    ] {
-        assert_eq!(problem(text), Problem::NoTableHeader, "{text:?}");
-    }
+    assert_eq!(problem("# points\n0\n1\n"), Problem::NoPoints);
+    assert_eq!(
+        problem("x,y,weight\n0,0,1\n1,1,1\n"),
+        Problem::NoTableHeader
+    );
     let misspelled = Problem::UnknownKey("degre=1".to_owned());
     assert_eq!(problem("# degre=1\nx;y\n0;0\n1;1\n"), misspelled);
     assert_eq!(
@@ -385,4 +386,208 @@ fn curves_and_points_stand_in_one_file() {
     assert_eq!(read.name, "scan");
     let alone = TABLE.write(&Document::default().with_references([circle]), None);
     assert!(matches!(alone, Err(WriteError::NoCurves { .. })));
+}
+
+/// Check the remarks and the lists of points of a table, each with its name.
+fn check_lists(text: &str, expected: &[(&str, &[[f64; 2]])], told: &str) {
+    let reading = read(text.as_bytes()).unwrap();
+    let lists = reading.references.iter().map(|reference| {
+        let points = reference.points().unwrap();
+        let points = points.iter().map(|point| [point.x, point.y]).collect();
+        (reference.name.as_str(), points)
+    });
+    let lists: Vec<(&str, Vec<[f64; 2]>)> = lists.collect();
+    let expected: Vec<(&str, Vec<[f64; 2]>)> = expected
+        .iter()
+        .map(|(name, points)| (*name, points.to_vec()))
+        .collect();
+    assert_eq!(lists, expected, "{text:?}");
+    assert_eq!(reading.remarks.to_string(), told, "{text:?}");
+}
+
+const POINTS: &[[f64; 2]] = &[[0.0, 1.5], [2.25, -3.0], [4.0, 5.0]];
+
+#[test]
+fn tables_of_other_programs_hold_points_with_titles_and_other_columns() {
+    let check = |text: &str, name: &str, told: &str| check_lists(text, &[(name, POINTS)], told);
+    check(
+        "  wing, root\n\n 0.0 1.5\n 2.25  -3\n 4 5\n",
+        "wing, root",
+        "",
+    );
+    check("wing \"root\n0 1.5\r2.25 -3\r4 5", "wing \"root", "");
+    check(
+        "wing\troot\n0\t1.5\n2.25\t-3\n4\t5\n",
+        "wing root",
+        "read with tabs between columns",
+    );
+    check(
+        "0 1,5\n2,25 -3\n4 5\n",
+        "points 1",
+        "read with decimal commas",
+    );
+    check("# x y\n0 1.5\n2.25 -3\n4 5\n", "points 1", "");
+    check("X/c Y/c\n0 1.5\n2.25 -3\n4 5\n", "points 1", "");
+    check(
+        "name;Y [mm];station;X [mm];note\nA;1,5;7;0;\nB;-3;8;2,25;here\nC;5;9;4;\n",
+        "points 1",
+        "read with semicolons between columns and decimal commas",
+    );
+    check("P1 0 1.5\nP2 2.25 -3\nP3 4 5\n", "points 1", "");
+    check(
+        "a,b\n0,1.5\n2.25,-3\n4,5\n",
+        "points 1",
+        "x and y are the columns 1 “a” and 2 “b”",
+    );
+    check(
+        "scan\ntaken on Monday\n1 2 3 4\n0 1.5\n2.25 -3\nlast 7\n4 5\n\nwww.scan.example\n",
+        "scan",
+        "lines 2 to 3, 6 and 9 were skipped (no point)",
+    );
+    check(
+        "0 1.5\n0 1.5\n2.25 -3\n1e999 0\n4 5\n4 5\n",
+        "points 1",
+        "lines 2 and 6 were left out (the same point as before)\nline 4 was left out (the number “1e999” is too large)",
+    );
+    // A blank line below every row divides nothing.
+    check("0 1.5\n\n2.25 -3\n\n4 5\n", "points 1", "");
+}
+
+#[test]
+fn the_unit_of_the_columns_is_that_of_the_document() {
+    let unit = |text: &str| {
+        let reading = read(format!("{text}\n0,1\n2,3\n").as_bytes());
+        reading.map(|it| (it.unit, it.remarks.to_string()))
+    };
+    let none = String::new();
+    for text in ["x [mm],y [mm]", "X(mm),y", "x,y_mm", "x/mm,y/mm"] {
+        let millimetres = Some(LengthUnit::Millimetre);
+        assert_eq!(unit(text), Ok((millimetres, none.clone())), "{text}");
+    }
+    assert_eq!(unit("x/c,y/c"), Ok((None, none.clone())));
+    let told = "the unit “ft” is not known: mm, cm, m and in are".to_owned();
+    assert_eq!(unit("x [ft],y [ft]"), Ok((None, told)));
+    let mixed = unit("x [mm],y [m]").unwrap_err().to_string();
+    let expected =
+        "line 1: the columns are in millimetres and in metres: give all coordinates in one unit";
+    assert_eq!(mixed, expected);
+}
+
+#[test]
+fn blank_lines_divide_points() {
+    check_lists(
+        "keel\n0 1.5\n2.25 -3\n4 5\n\n0 1\n2 3\n\nstem\n1 1\n2 2\n\n7 7\n",
+        &[
+            ("keel", POINTS),
+            ("keel, block 2", &[[0.0, 1.0], [2.0, 3.0]]),
+            ("stem", &[[1.0, 1.0], [2.0, 2.0]]),
+        ],
+        "line 13 was skipped (no point)",
+    );
+}
+
+#[test]
+fn ambiguous_columns_are_named_and_can_be_chosen() {
+    let text = b"t;width;height\n0;1;2\n1;3;5\n";
+    let error = read(text).unwrap_err();
+    let expected = "line 1: which columns are x and y? There are 1 “t”, 2 “width”, 3 “height”: name them x and y, or choose them";
+    assert_eq!(error.to_string(), expected);
+    for choice in ["2,3", "width,Height"] {
+        let choice: ColumnChoice = choice.parse().unwrap();
+        let reading = read_chosen(text, &choice).unwrap();
+        let points = reading.references[0].points().unwrap();
+        let expected = [DVec3::new(1.0, 2.0, 0.0), DVec3::new(3.0, 5.0, 0.0)];
+        assert_eq!(points[..], expected);
+    }
+    assert!(read(b"0 1 2 3\n4 5 6 7\n").is_err());
+    let choice: ColumnChoice = "1,2".parse().unwrap();
+    let curve = b"# degree=1\nx,y\n0,0\n1,1\n";
+    let refused = read_chosen(curve, &choice).unwrap_err();
+    assert_eq!(refused.problem, Problem::NoChoice);
+}
+
+#[test]
+fn a_number_that_becomes_0_is_told() {
+    let told = "line 3 was read as 0 in part (the number “1e-400” is too small)";
+    check_table(
+        "# degree=2\nx,y\n0,1e-400\n1,0.0e-400\n2,0\n",
+        &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
+        told,
+    );
+    let told = told.replace("line 3", "line 1");
+    check_lists(
+        "0 1e-400\n1 1\n",
+        &[("points 1", &[[0.0, 0.0], [1.0, 1.0]])],
+        &told,
+    );
+}
+
+#[test]
+fn old_titles_are_latin_1() {
+    let reading = read(b"G\xf6 114\n0 1\n2 3\n").unwrap();
+    assert_eq!(reading.references[0].name, "Gö 114");
+    let told = reading.remarks.to_string();
+    assert_eq!(told, "the text is not UTF-8 and was read as Latin-1");
+}
+
+#[test]
+fn an_airfoil_in_lednicer_order_is_read_around_the_section() {
+    let around: &[[f64; 2]] = &[
+        [1.0, 0.01],
+        [0.5, 0.1],
+        [0.1, 0.05],
+        [0.0, 0.0],
+        [0.1, -0.04],
+        [0.5, -0.05],
+        [1.0, 0.0],
+    ];
+    let rows = |points: &[[f64; 2]]| -> String {
+        points.iter().map(|[x, y]| format!(" {x}  {y}\n")).collect()
+    };
+    let selig = format!("foil\n{}", rows(around));
+    check_lists(
+        &selig,
+        &[("foil", around)],
+        "“foil”: an airfoil in Selig order",
+    );
+    let mut upper = around[..4].to_vec();
+    upper.reverse();
+    let [upper, lower] = [rows(&upper), rows(&around[3..])];
+    let told = "“foil”: an airfoil in Lednicer order";
+    for text in [
+        format!("foil\n 4. 4.\n\n{upper}\n{lower}"),
+        format!("foil\n 4 4\n{upper}{lower}"),
+        format!("foil\n4.0 4.0\n{upper}\n{lower}\n"),
+    ] {
+        check_lists(&text, &[("foil", around)], told);
+    }
+    let told = format!(
+        "line 2: the counts are not those of the two sides, which the blank line divides\n{told}"
+    );
+    let text = format!("foil\n 5. 4.\n\n{upper}\n{lower}");
+    check_lists(&text, &[("foil", around)], &told);
+}
+
+#[test]
+fn a_point_table_keeps_titles_and_digits() {
+    let points = |count: usize| {
+        let points = (0..count).map(|i| DVec3::new(0.1 * i as f64, -1.0 / 3.0, 1e-300));
+        let list = PointList::new(points.collect()).unwrap();
+        ReferenceCurve::of(ReferenceForm::Points(list)).unwrap()
+    };
+    let names = ["NACA 0012", "23012", "x y", "# so", " padded", "two\nlines"];
+    let references = names.map(|name| Reference::new(name, points(4)));
+    let document = Document::from_curves([planar()])
+        .with_references(references.clone())
+        .with_unit(Some(LengthUnit::Inch));
+    let export = crate::io::POINT_TABLE.write(&document, None).unwrap();
+    let told = export.losses.to_string();
+    assert_eq!(told, "“arc”: curves aren't stored in the point table");
+    let text = String::from_utf8(export.bytes.clone()).unwrap();
+    assert!(text.starts_with("# unit=in\nNACA 0012\n  0.0  "), "{text}");
+    let reading = crate::io::POINT_TABLE.read(&export.bytes).unwrap();
+    assert_eq!(reading.references, references, "{text}");
+    assert_eq!(reading.unit, Some(LengthUnit::Inch));
+    let none = crate::io::POINT_TABLE.write(&Document::from_curves([planar()]), None);
+    assert!(matches!(none, Err(WriteError::NoPoints { .. })));
 }

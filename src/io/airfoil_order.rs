@@ -1,0 +1,180 @@
+//! The two orders in which airfoil files list the points of a section.
+//!
+//! Selig: from the trailing edge over the upper side to the leading edge, then over the lower side back.
+//! Lednicer: a line with the number of points of either side, then each from the leading edge on.
+
+use std::fmt;
+
+use glam::DVec3;
+
+/// The share of a section's size within which points count as one end of it.
+const NEAR: f64 = 0.1;
+
+/// The largest share of steps of one side that may go back along the chord, as at a blunt leading edge.
+const STEPS_BACK: f64 = 0.1;
+
+/// The order of the points of an airfoil file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AirfoilOrder {
+    /// Around the section.
+    Selig,
+    /// Both sides from the leading edge, below a line with their counts.
+    Lednicer,
+}
+
+impl fmt::Display for AirfoilOrder {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Selig => "Selig",
+            Self::Lednicer => "Lednicer",
+        })
+    }
+}
+
+/// The two sides of a section in Lednicer order.
+#[derive(Debug, PartialEq)]
+pub(super) struct Sides {
+    /// Where the lower side begins among the points below the counts.
+    pub(super) split: usize,
+    /// Whether the counts are those of the sides.
+    pub(super) are_counted: bool,
+}
+
+/// Find the sides of a section in Lednicer order, from all points of a table: the first is the line with
+/// the counts. `breaks` are the places below which a blank line, or the end of the file, follows.
+///
+/// Both sides begin at about the same point. Counts that do not fit are tolerated where blank lines
+/// divide two sides.
+pub(super) fn lednicer(points: &[DVec3], breaks: &[usize]) -> Option<Sides> {
+    let (counts, rest) = points.split_first()?;
+    let is_count = |count: f64| count >= 2.0 && count.fract() == 0.0;
+    if !is_count(counts.x) || !is_count(counts.y) || counts.z != 0.0 {
+        return None;
+    }
+    let size = extent(rest).length();
+    let meets = |split: usize| {
+        let pair = rest.first().zip(rest.get(split));
+        let meets = pair.is_some_and(|(a, b)| a.distance(*b) <= NEAR * size);
+        meets && split >= 2 && rest.len() >= split + 2
+    };
+    let counted = counts.x as usize;
+    if counts.x + counts.y == rest.len() as f64 && meets(counted) {
+        let (split, are_counted) = (counted, true);
+        return Some(Sides { split, are_counted });
+    }
+    let mut inner = breaks
+        .iter()
+        .filter(|place| (2..points.len()).contains(*place));
+    let split = inner.next().map(|place| place - 1);
+    let split = split.filter(|split| inner.next().is_none() && meets(*split))?;
+    let are_counted = false;
+    Some(Sides { split, are_counted })
+}
+
+/// Bring two sides that begin at the leading edge into the order around the section; the leading edge
+/// stands there once.
+pub(super) fn around<T: Copy>(rows: &[T], split: usize, is_same: impl Fn(T, T) -> bool) -> Vec<T> {
+    let (upper, lower) = rows.split_at(split.min(rows.len()));
+    let meet = upper.first().zip(lower.first());
+    let shared = meet.is_some_and(|(a, b)| is_same(*a, *b));
+    let lower = lower.iter().skip(usize::from(shared));
+    upper.iter().rev().chain(lower).copied().collect()
+}
+
+/// Whether points run around a section: from its trailing edge, where x is greatest, to the leading edge
+/// and back, the upper side first, and it is not as thick as it is long.
+pub(super) fn is_selig(points: &[DVec3]) -> bool {
+    let size = extent(points);
+    let (Some(first), Some(last)) = (points.first(), points.last()) else {
+        return false;
+    };
+    let greatest = points
+        .iter()
+        .map(|point| point.x)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let ends = [first, last]
+        .into_iter()
+        .all(|end| greatest - end.x <= NEAR * size.x);
+    let order = |a: &usize, b: &usize| points[*a].x.total_cmp(&points[*b].x);
+    let nose = (0..points.len()).min_by(order).unwrap_or_default();
+    let (upper, lower) = (&points[..=nose], &points[nose..]);
+    let goes_back = |side: &[DVec3], sign: f64| {
+        let back = side
+            .windows(2)
+            .filter(|pair| sign * (pair[1].x - pair[0].x) < 0.0);
+        back.count() as f64 > STEPS_BACK * side.len() as f64
+    };
+    let mean = |side: &[DVec3]| side.iter().map(|it| it.y).sum::<f64>() / side.len() as f64;
+    ends && size.z == 0.0
+        && size.y < size.x
+        && upper.len() > 2
+        && lower.len() > 2
+        && !goes_back(upper, -1.0)
+        && !goes_back(lower, 1.0)
+        && mean(upper) > mean(lower)
+}
+
+/// The size of the box around points.
+fn extent(points: &[DVec3]) -> DVec3 {
+    let low = points.iter().copied().reduce(DVec3::min);
+    let high = points.iter().copied().reduce(DVec3::max);
+    high.unwrap_or_default() - low.unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(values: &[(f64, f64)]) -> Vec<DVec3> {
+        values
+            .iter()
+            .map(|(x, y)| DVec3::new(*x, *y, 0.0))
+            .collect()
+    }
+
+    #[test]
+    fn counts_are_told_from_a_first_point() {
+        let sides = [
+            (0.0, 0.0),
+            (0.5, 0.1),
+            (1.0, 0.0),
+            (0.0, 0.0),
+            (0.5, -0.1),
+            (1.0, 0.0),
+        ];
+        let with = |first: (f64, f64)| points(&[&[first], &sides[..]].concat());
+        let split = |first, breaks: &[usize]| lednicer(&with(first), breaks).map(|it| it.split);
+        assert_eq!(split((3.0, 3.0), &[]), Some(3));
+        assert_eq!(split((3.0, 3.0), &[1, 4]), Some(3));
+        // Wrong counts are believed only where a blank line divides the sides.
+        assert_eq!(split((4.0, 4.0), &[1, 4]), Some(3));
+        assert_eq!(split((4.0, 4.0), &[]), None);
+        assert_eq!(split((4.0, 2.0), &[]), None);
+        assert_eq!(split((1.0, 0.1), &[]), None);
+        let order = around(&sides, 3, |a, b| a == b);
+        assert_eq!(
+            order,
+            [(1.0, 0.0), (0.5, 0.1), (0.0, 0.0), (0.5, -0.1), (1.0, 0.0)]
+        );
+    }
+
+    #[test]
+    fn an_arc_and_a_line_are_no_sections() {
+        let section = [
+            (1.0, 0.01),
+            (0.5, 0.1),
+            (0.1, 0.05),
+            (0.0, 0.0),
+            (0.1, -0.05),
+            (0.5, -0.02),
+            (1.0, -0.01),
+        ];
+        assert!(is_selig(&points(&section)));
+        let mut reversed = section;
+        reversed.reverse();
+        assert!(!is_selig(&points(&reversed)));
+        assert!(!is_selig(&points(&section[..4])));
+        assert!(!is_selig(&points(&[(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)])));
+        assert!(!is_selig(&[]));
+    }
+}

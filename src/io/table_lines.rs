@@ -1,0 +1,196 @@
+//! The lines of a table, split into fields.
+
+use std::borrow::Cow;
+
+use csv::{ReaderBuilder, StringRecord};
+
+use super::decimals::is_number;
+use super::table_header::begins_table;
+
+/// What may stand between fields, in the order of preference; a space stands for any run of blanks.
+const SEPARATORS: [char; 4] = [';', '\t', ',', ' '];
+
+/// How many rows of numbers decide on the separator. More would read large files twice.
+const DECIDING: usize = 256;
+
+/// A line of a table.
+#[derive(Clone, Debug)]
+pub(super) struct TableLine<'a> {
+    /// The number of the line, counted from 1.
+    pub(super) number: usize,
+    /// The line as it stands in the file.
+    pub(super) text: &'a str,
+    /// The content.
+    pub(super) content: LineContent<'a>,
+}
+
+/// The content of a line.
+#[derive(Clone, Debug)]
+pub(super) enum LineContent<'a> {
+    /// Nothing but separators.
+    Blank,
+    /// A line that begins with # but no table.
+    Comment,
+    /// The line above a table, without the quotation marks of a spreadsheet.
+    Header(Cow<'a, str>),
+    /// Values, or other text.
+    Fields(Fields<'a>),
+}
+
+/// The fields of a line.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Fields<'a> {
+    /// The fields without blanks around them, up to the last that is not empty.
+    pub(super) values: Vec<Cow<'a, str>>,
+    /// Their number with the empty ones at the end.
+    pub(super) width: usize,
+}
+
+impl<'a> Fields<'a> {
+    /// Split a line at a separator. A quoted field may hold the separator.
+    pub(super) fn of(line: &'a str, separator: char) -> Self {
+        let mut values: Vec<Cow<str>> = match separator {
+            ' ' => line.split_whitespace().map(Cow::Borrowed).collect(),
+            _ if line.contains('"') => unquoted(line, separator),
+            _ => line.split(separator).map(trimmed).collect(),
+        };
+        let width = values.len();
+        let filled = values.iter().rposition(|value| !value.is_empty());
+        values.truncate(filled.map_or(0, |last| last + 1));
+        Self { values, width }
+    }
+
+    /// How many of them are numbers.
+    pub(super) fn numbers(&self) -> usize {
+        self.values.iter().filter(|it| is_number(it)).count()
+    }
+
+    /// Whether they can be a row of numbers: at least two, and no field that is two numbers.
+    fn are_split(&self) -> bool {
+        let is_unsplit = |value: &Cow<str>| {
+            let mut words = value.split_whitespace();
+            words.clone().count() > 1 && words.all(is_number)
+        };
+        self.numbers() >= 2 && !self.values.iter().any(is_unsplit)
+    }
+}
+
+fn trimmed(field: &str) -> Cow<'_, str> {
+    Cow::Borrowed(field.trim())
+}
+
+/// Split a line that has quotation marks. Each line is read on its own: a mark in a title closes with it.
+fn unquoted<'a>(line: &'a str, separator: char) -> Vec<Cow<'a, str>> {
+    let mut reader = ReaderBuilder::new()
+        .delimiter(u8::try_from(separator).unwrap_or(b','))
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(line.as_bytes());
+    let mut record = StringRecord::new();
+    match reader.read_record(&mut record) {
+        Ok(true) => {
+            let fields = record.iter().map(|field| field.trim().to_owned());
+            fields.map(Cow::Owned).collect()
+        }
+        _ => vec![trimmed(line)],
+    }
+}
+
+/// Find what stands between the fields: the separator that splits most rows into numbers. Where there
+/// are none, the first line of text tells it.
+pub(super) fn separator(text: &str) -> char {
+    let lines = || text.lines().filter(|line| !is_commented(line));
+    let mut counts = [0; SEPARATORS.len()];
+    for line in lines() {
+        for (count, separator) in counts.iter_mut().zip(SEPARATORS) {
+            *count += usize::from(Fields::of(line, separator).are_split());
+        }
+        if counts.contains(&DECIDING) {
+            break;
+        }
+    }
+    let most = counts.into_iter().max().filter(|most| *most > 0);
+    let mut rated = counts.into_iter().zip(SEPARATORS);
+    let told = rated.find(|(count, _)| Some(*count) == most);
+    let is_filled = |line: &&str| !line.trim_matches([',', ';', '\t', ' ', '"']).is_empty();
+    let names = lines().find(is_filled).unwrap_or_default();
+    let named = || SEPARATORS.into_iter().find(|it| names.contains(*it));
+    told.map(|(_, separator)| separator)
+        .or_else(named)
+        .unwrap_or(',')
+}
+
+/// Split a text into lines and these into fields.
+pub(super) fn lines(text: &str, separator: char) -> impl Iterator<Item = TableLine<'_>> {
+    (1..)
+        .zip(text.lines())
+        .map(move |(number, text)| TableLine {
+            number,
+            text,
+            content: content(text, separator),
+        })
+}
+
+fn content(line: &str, separator: char) -> LineContent<'_> {
+    if is_commented(line) {
+        return match begins_table(line) {
+            false => LineContent::Comment,
+            true => LineContent::Header(header(line, separator)),
+        };
+    }
+    let fields = Fields::of(line, separator);
+    match fields.values.is_empty() {
+        true => LineContent::Blank,
+        false => LineContent::Fields(fields),
+    }
+}
+
+/// Whether a line begins with `#`, in quotation marks or not.
+fn is_commented(line: &str) -> bool {
+    line.trim_start_matches(['"', ' ', '\t']).starts_with('#')
+}
+
+/// The text of a header: a spreadsheet may have quoted it, or padded it with separators.
+fn header(line: &str, separator: char) -> Cow<'_, str> {
+    let line = line.trim();
+    match line.starts_with('"') {
+        false => Cow::Borrowed(line),
+        true => {
+            let fields = unquoted(line, separator);
+            let joined = fields.join(separator.encode_utf8(&mut [0; 4]));
+            Cow::Owned(joined.trim().to_owned())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_separator_is_the_one_that_splits_rows_into_numbers() {
+        for (text, expected) in [
+            ("title, with a comma\n1.0 0.5\n0.5 0.25\n", ' '),
+            ("1,5 2,5\n3,5 4,5\n", ' '),
+            ("1, 2\n3, 4\n", ','),
+            ("0;1,5\n1;2,5\n", ';'),
+            ("0\t1,5\n1\t2,5\n", '\t'),
+            ("0.1\t0.2\n0.3 0.4\n0.5 0.6\n", ' '),
+            ("P1 0.5 0.25 left\n", ' '),
+            ("x;y\n", ';'),
+            ("# a b\nx,y\n", ','),
+            ("x\n", ','),
+        ] {
+            assert_eq!(separator(text), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn a_quotation_mark_ends_with_its_line() {
+        let fields = |line| Fields::of(line, ',').values;
+        assert_eq!(fields("say \"so, 1\n"), ["say \"so", "1"]);
+        assert_eq!(fields("\"1,5\", 2,,"), ["1,5", "2"]);
+        assert_eq!(fields("\"open, 1"), ["open, 1"]);
+        assert_eq!(fields(" ,,"), [] as [&str; 0]);
+    }
+}

@@ -1,0 +1,492 @@
+//! Lists of points in tables as other programs write them: with titles, other columns, text between the
+//! rows, and airfoils in either order.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer};
+use super::decimals::{Decimals, is_number};
+use super::error::{Place, Problem, ReadError};
+use super::reading::{Reading, Remark, Remarks};
+use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, columns};
+use super::table_lines::{Fields, LineContent, TableLine};
+use crate::document::Reference;
+use crate::geometry::expressions::LengthUnit;
+use crate::geometry::references::{PointList, ReferenceCurve, ReferenceError, ReferenceForm};
+
+/// Lines of a table that hold points: those below one line with column names, if there is one.
+#[derive(Debug, Default)]
+pub(super) struct PointSection<'a> {
+    /// The number of the first line.
+    pub(super) line: usize,
+    /// Whether a line with # announces the points.
+    pub(super) is_announced: bool,
+    /// The name that the line with # gives.
+    pub(super) name: Option<String>,
+    /// The lines.
+    pub(super) lines: Vec<TableLine<'a>>,
+}
+
+/// Read the sections of a file, and collect the remarks on them.
+pub(super) struct PointReader<'a> {
+    choice: Option<&'a ColumnChoice>,
+    separator: char,
+    unit: Option<LengthUnit>,
+    references: Vec<Reference>,
+    skipped: Vec<usize>,
+    repeated: Vec<usize>,
+    too_large: Option<(String, Vec<usize>)>,
+    remarks: Remarks,
+}
+
+/// A point with its line.
+#[derive(Clone, Copy)]
+pub(super) struct Row {
+    /// The number of the line.
+    pub(super) line: usize,
+    /// The point.
+    pub(super) point: DVec3,
+}
+
+/// Rows without a blank line between them, with the text above them.
+#[derive(Default)]
+struct Block {
+    title: Option<(usize, String)>,
+    rows: Vec<Row>,
+}
+
+/// Which fields of which lines are coordinates.
+struct Layout {
+    /// The number of columns of most rows.
+    count: usize,
+    /// The number of column names, if there are more.
+    named: usize,
+    /// The line with the names.
+    names: Option<usize>,
+    /// The columns of x, y and, in space, z, counted from 0.
+    places: Vec<usize>,
+}
+
+/// What a line of text is in a list of points.
+enum Found {
+    Row(Row),
+    Text,
+    /// A number too large for a double.
+    TooLarge(String),
+}
+
+impl PointSection<'_> {
+    /// Whether a line that could be a row is among them.
+    pub(super) fn has_rows(&self) -> bool {
+        self.fields().any(|(_, fields)| fields.numbers() >= 2)
+    }
+
+    fn fields(&self) -> impl Iterator<Item = (usize, &Fields<'_>)> {
+        self.lines.iter().filter_map(|line| match &line.content {
+            LineContent::Fields(fields) => Some((line.number, fields)),
+            _ => None,
+        })
+    }
+}
+
+impl<'a> PointReader<'a> {
+    /// Begin; `unit` is the one that a line of the file says.
+    pub(super) fn new(
+        choice: Option<&'a ColumnChoice>,
+        separator: char,
+        unit: Option<LengthUnit>,
+    ) -> Self {
+        Self {
+            choice,
+            separator,
+            unit,
+            references: Vec::new(),
+            skipped: Vec::new(),
+            repeated: Vec::new(),
+            too_large: None,
+            remarks: Remarks::default(),
+        }
+    }
+
+    /// Read the lists of points of a section.
+    ///
+    /// # Errors
+    /// [`ReadError`] with the line: the columns are not told, or the points make no list.
+    pub(super) fn read(
+        &mut self,
+        section: &PointSection,
+        decimals: &mut Decimals,
+    ) -> Result<(), ReadError> {
+        let layout = self.layout(section)?;
+        let blocks = match &layout {
+            Some(layout) => self.blocks(section, layout, decimals)?,
+            None => {
+                self.skipped.extend(section.fields().map(|(line, _)| line));
+                Vec::new()
+            }
+        };
+        if blocks.is_empty() && section.is_announced {
+            let found = 0;
+            let error = ReferenceError::TooFewPoints { found };
+            return Err(Place::line(section.line).problem(error.into()));
+        }
+        let (blocks, lednicer) = self.in_order(blocks);
+        let blocks = self.joined(blocks);
+        let title = blocks.first().and_then(|block| block.title.clone());
+        let title = title.map(|(_, title)| title).or(section.name.clone());
+        let several = blocks.len() > 1;
+        for (block, number) in blocks.into_iter().zip(1..) {
+            if let ([only], true) = (&block.rows[..], several) {
+                self.skipped.push(only.line);
+                self.skipped
+                    .extend(block.title.iter().map(|(line, _)| *line));
+                continue;
+            }
+            let own = block.title.map(|(_, title)| title);
+            let numbered = title.as_ref().map(|title| match number {
+                1 => title.clone(),
+                _ => format!("{title}, block {number}"),
+            });
+            let points: Vec<DVec3> = block.rows.iter().map(|row| row.point).collect();
+            let order = match lednicer {
+                Some(order) => Some(order),
+                None => is_selig(&points).then_some(AirfoilOrder::Selig),
+            };
+            self.add(section.line, own.or(numbered), block.rows)?;
+            if let (Some(order), Some(added)) = (order, self.references.last()) {
+                let name = added.name.clone();
+                self.remarks.add(Remark::Airfoil { name, order });
+            }
+        }
+        Ok(())
+    }
+
+    /// Add what was read to the content of the file.
+    pub(super) fn finish(mut self, reading: &mut Reading) {
+        reading.unit = reading.unit.or(self.unit);
+        reading.references.append(&mut self.references);
+        for (lines, remark) in [
+            (self.skipped, Remark::Skipped as fn(Vec<usize>) -> Remark),
+            (self.repeated, Remark::Repeated),
+        ] {
+            if !lines.is_empty() {
+                self.remarks.add(remark(lines));
+            }
+        }
+        if let Some((text, lines)) = self.too_large {
+            self.remarks.add(Remark::TooLarge { text, lines });
+        }
+        reading.remarks.extend(self.remarks);
+    }
+
+    /// Find out which columns hold the coordinates; `None` if no line can be a row.
+    fn layout(&mut self, section: &PointSection) -> Result<Option<Layout>, ReadError> {
+        let rows: Vec<(usize, &Fields)> = section
+            .fields()
+            .filter(|(_, fields)| fields.numbers() >= 2)
+            .collect();
+        let Some(count) = most_frequent(rows.iter().map(|(_, fields)| fields.values.len())) else {
+            return Ok(None);
+        };
+        let rows: Vec<_> = rows
+            .into_iter()
+            .filter(|it| it.1.values.len() == count)
+            .collect();
+        let first = rows.first().map_or(section.line, |(line, _)| *line);
+        let names = self.names(section, first, count);
+        let place = Place::line(names.as_ref().map_or(first, |(line, _)| *line));
+        let places = match (self.choice, names.as_ref().map(|(_, names)| names)) {
+            (Some(choice), names) => {
+                let most = count.max(names.map_or(0, ColumnNames::count));
+                choice.places(names, most).map_err(|it| place.problem(it))?
+            }
+            (None, Some(names)) if names.has_weights() => {
+                return Err(place.problem(Problem::NoTableHeader));
+            }
+            (None, names) => {
+                let places = names.and_then(ColumnNames::coordinates);
+                let places = places.map_or_else(|| self.numeric(&rows, count, names), Ok);
+                places.map_err(|it| place.problem(it))?
+            }
+        };
+        if let Some((line, names)) = &names {
+            self.take_unit(*line, names, &places)?;
+        }
+        Ok(Some(Layout {
+            count,
+            named: names.as_ref().map_or(0, |(_, names)| names.count()),
+            names: names.map(|(line, _)| line),
+            places,
+        }))
+    }
+
+    /// Find the line with the column names: the last line of text above the first row, if it names x and y
+    /// or, where that is no title, has as many fields as the rows.
+    fn names(
+        &self,
+        section: &PointSection,
+        first: usize,
+        count: usize,
+    ) -> Option<(usize, ColumnNames)> {
+        let above = section.fields().take_while(|(line, _)| *line < first);
+        let (line, fields) = above.filter(|(_, fields)| fields.numbers() == 0).last()?;
+        let names = ColumnNames::of(fields);
+        // Words of a title are seldom divided by commas or semicolons.
+        let is_title = match self.separator {
+            _ if self.choice.is_some_and(ColumnChoice::has_names) => false,
+            ' ' => count <= 3,
+            '\t' => count == 2,
+            _ => false,
+        };
+        let are_names = names.coordinates().is_some() || (names.count() == count && !is_title);
+        are_names.then_some((line, names))
+    }
+
+    /// Take the columns of numbers for the coordinates.
+    ///
+    /// # Errors
+    /// [`Problem::AmbiguousColumns`] if there may be others.
+    fn numeric(
+        &mut self,
+        rows: &[(usize, &Fields)],
+        count: usize,
+        names: Option<&ColumnNames>,
+    ) -> Result<Vec<usize>, Problem> {
+        let are_mostly = |place: &usize| {
+            let numbers = rows
+                .iter()
+                .filter(|(_, fields)| is_number(&fields.values[*place]));
+            2 * numbers.count() > rows.len()
+        };
+        let places: Vec<usize> = (0..count).filter(are_mostly).collect();
+        match (places.len(), names) {
+            (2, Some(_)) => {
+                let columns = columns(names, places.iter().copied());
+                self.remarks.add(Remark::Columns(columns));
+                Ok(places)
+            }
+            (2, None) | (3, None) => Ok(places),
+            _ => Err(Problem::AmbiguousColumns(columns(names, places))),
+        }
+    }
+
+    /// Take the unit of the columns.
+    ///
+    /// # Errors
+    /// [`Problem::MixedUnits`].
+    fn take_unit(
+        &mut self,
+        line: usize,
+        names: &ColumnNames,
+        places: &[usize],
+    ) -> Result<(), ReadError> {
+        for text in places.iter().filter_map(|place| names.unit(*place)) {
+            match (LengthUnit::of_symbol(text), self.unit) {
+                (Some(unit), Some(known)) if unit != known => {
+                    let problem = Problem::MixedUnits([known, unit]);
+                    return Err(Place::line(line).problem(problem));
+                }
+                (Some(unit), _) => self.unit = Some(unit),
+                (None, _) => {
+                    let remark = Remark::UnknownUnit(text.to_owned());
+                    if !self.remarks.contains(&remark) {
+                        self.remarks.add(remark);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Divide a section at its blank lines.
+    fn blocks(
+        &mut self,
+        section: &PointSection,
+        layout: &Layout,
+        decimals: &mut Decimals,
+    ) -> Result<Vec<Block>, ReadError> {
+        let mut blocks = Vec::new();
+        let mut block = Block::default();
+        for line in &section.lines {
+            let LineContent::Fields(fields) = &line.content else {
+                if !block.rows.is_empty() {
+                    blocks.push(std::mem::take(&mut block));
+                }
+                continue;
+            };
+            match layout.found(line.number, fields, decimals) {
+                Ok(Found::Row(row)) => block.rows.push(row),
+                Ok(Found::TooLarge(text)) => {
+                    let (_, lines) = self.too_large.get_or_insert((text, Vec::new()));
+                    lines.push(line.number);
+                }
+                Ok(Found::Text) if layout.names == Some(line.number) => {}
+                Ok(Found::Text) => match title(line.text) {
+                    Some(title) if block.rows.is_empty() && block.title.is_none() => {
+                        block.title = Some((line.number, title));
+                    }
+                    _ => self.skipped.push(line.number),
+                },
+                Err(problem) => return Err(Place::line(line.number).problem(problem)),
+            }
+        }
+        match block.rows.is_empty() {
+            true => self.skipped.extend(block.title.map(|(line, _)| line)),
+            false => blocks.push(block),
+        }
+        Ok(blocks)
+    }
+
+    /// Bring an airfoil in Lednicer order into that around the section.
+    fn in_order(&mut self, blocks: Vec<Block>) -> (Vec<Block>, Option<AirfoilOrder>) {
+        let rows: Vec<Row> = blocks
+            .iter()
+            .flat_map(|it| it.rows.iter().copied())
+            .collect();
+        let points: Vec<DVec3> = rows.iter().map(|row| row.point).collect();
+        let lengths = blocks.iter().map(|block| block.rows.len());
+        let ends = lengths.scan(0, |end, length| {
+            *end += length;
+            Some(*end)
+        });
+        let Some(sides) = lednicer(&points, &ends.collect::<Vec<_>>()) else {
+            return (blocks, None);
+        };
+        if !sides.are_counted {
+            self.remarks.add(Remark::Counts { line: rows[0].line });
+        }
+        let rows = around(&rows[1..], sides.split, |a, b| a.point == b.point);
+        let mut titles = blocks.into_iter().filter_map(|block| block.title);
+        let title = titles.next();
+        self.skipped.extend(titles.map(|(line, _)| line));
+        (vec![Block { title, rows }], Some(AirfoilOrder::Lednicer))
+    }
+
+    /// Join blocks of one row each: there a blank line follows every row.
+    fn joined(&mut self, mut blocks: Vec<Block>) -> Vec<Block> {
+        if blocks.iter().all(|block| block.rows.len() == 1) && !blocks.is_empty() {
+            let others = blocks.split_off(1);
+            for Block { title, rows } in others {
+                self.skipped.extend(title.map(|(line, _)| line));
+                blocks[0].rows.extend(rows);
+            }
+        }
+        blocks
+    }
+
+    /// Skip a line.
+    pub(super) fn skip(&mut self, line: usize) {
+        self.skipped.push(line);
+    }
+
+    /// Add a list of points without repeated ones; `first` is the line where it begins.
+    ///
+    /// # Errors
+    /// [`ReadError`] if the points make no list.
+    pub(super) fn add(
+        &mut self,
+        first: usize,
+        name: Option<String>,
+        mut rows: Vec<Row>,
+    ) -> Result<(), ReadError> {
+        let number = self.references.len() + 1;
+        let name = name.unwrap_or_else(|| format!("points {number}"));
+        let repeated = &mut self.repeated;
+        rows.dedup_by(|row, before| {
+            let is_repeated = row.point == before.point;
+            repeated.extend(is_repeated.then_some(row.line));
+            is_repeated
+        });
+        let points: Vec<DVec3> = rows.iter().map(|row| row.point).collect();
+        let list = PointList::new(points);
+        let curve = list.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
+        let curve = curve.map_err(|error| {
+            let line = match error {
+                ReferenceError::BadPoint { index, .. } => rows.get(index).map(|row| row.line),
+                _ => None,
+            };
+            let place = Place {
+                line: Some(line.unwrap_or(first)),
+                ..Place::reference(number, &name)
+            };
+            place.problem(error.into())
+        });
+        self.references.push(Reference::new(name.clone(), curve?));
+        Ok(())
+    }
+}
+
+impl Layout {
+    /// Tell whether a line is a row.
+    ///
+    /// # Errors
+    /// [`Problem`] if its decimals are not those of the rows before.
+    fn found(
+        &self,
+        line: usize,
+        fields: &Fields,
+        decimals: &mut Decimals,
+    ) -> Result<Found, Problem> {
+        let most = self.count.max(self.named);
+        let length = fields.values.len();
+        let fits = length == self.count || length == self.named;
+        if !fits && !(length < most && fields.width >= most) {
+            return Ok(Found::Text);
+        }
+        let text = |place: &usize| fields.values.get(*place).map_or("", |text| text.as_ref());
+        let texts: Vec<&str> = self.places.iter().map(text).collect();
+        if let Some(text) = texts.iter().find(|text| is_too_large(text)) {
+            return Ok(Found::TooLarge((*text).to_owned()));
+        }
+        if !texts.iter().all(|text| is_number(text)) {
+            return Ok(Found::Text);
+        }
+        let mut point = [0.0; 3];
+        for ((value, text), column) in point.iter_mut().zip(texts).zip(COLUMNS) {
+            *value = decimals.number(text, column, line)?;
+        }
+        let point = DVec3::from_array(point);
+        Ok(Found::Row(Row { line, point }))
+    }
+}
+
+/// Find the most frequent number; of several the one that comes first.
+fn most_frequent(numbers: impl Iterator<Item = usize>) -> Option<usize> {
+    let mut counts: HashMap<usize, (usize, usize)> = HashMap::new();
+    for (place, number) in numbers.enumerate() {
+        counts.entry(number).or_insert((0, place)).0 += 1;
+    }
+    let rated = |(_, (count, place)): &(usize, (usize, usize))| (*count, usize::MAX - place);
+    counts
+        .into_iter()
+        .max_by_key(rated)
+        .map(|(number, _)| number)
+}
+
+/// Whether a text is a number that only lacks a larger exponent to be finite.
+fn is_too_large(text: &str) -> bool {
+    let is_infinite = text.parse().is_ok_and(f64::is_infinite);
+    is_infinite && text.bytes().any(|byte| byte.is_ascii_digit())
+}
+
+/// The text of a title, without what a spreadsheet puts around it; `None` for a line without letters.
+fn title(line: &str) -> Option<String> {
+    let line = line.trim_matches([',', ';', '\t', ' ']);
+    let inner = line
+        .strip_prefix('"')
+        .and_then(|line| line.strip_suffix('"'));
+    let words: Vec<&str> = inner.unwrap_or(line).split_whitespace().collect();
+    let title = words.join(" ");
+    title.contains(char::is_alphabetic).then_some(title)
+}
+
+/// Whether a text above rows is read as their title.
+pub(super) fn is_title(text: &str) -> bool {
+    let fields = Fields::of(text, ' ');
+    title(text).is_some_and(|title| title == text)
+        && !text.starts_with('#')
+        && !text.contains(char::is_control)
+        && fields.numbers() < 2
+        && ColumnNames::of(&fields).coordinates().is_none()
+}

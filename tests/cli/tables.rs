@@ -1,0 +1,153 @@
+//! Tables of other programs from a shell: airfoils, columns, GPS tracks.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use crate::folder::*;
+
+/// The airfoils, all in Selig order.
+fn airfoils() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/airfoils");
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let is_table = |path: &PathBuf| path.extension().is_some_and(|it| it == "dat");
+    let mut airfoils: Vec<PathBuf> = entries.filter(is_table).collect();
+    airfoils.sort();
+    assert_eq!(airfoils.len(), 20);
+    airfoils
+}
+
+/// The lines of a table that are two numbers, without those that repeat the one before.
+fn rows(text: &str) -> Vec<[f64; 2]> {
+    let row = |line: &str| {
+        let numbers: Option<Vec<f64>> = line.split_whitespace().map(|it| it.parse().ok()).collect();
+        numbers?.try_into().ok()
+    };
+    let mut rows: Vec<[f64; 2]> = text.lines().filter_map(row).collect();
+    rows.dedup();
+    rows
+}
+
+fn points(inspected: &Value) -> Vec<[f64; 2]> {
+    let references = inspected["references"].as_array().unwrap();
+    assert_eq!(references.len(), 1);
+    let points = references[0]["points"].as_array().unwrap().iter();
+    let point = |point: &Value| [0, 1].map(|axis| point[axis].as_f64().unwrap());
+    points.map(point).collect()
+}
+
+#[test]
+fn airfoils_are_the_same_points_in_either_order() {
+    let folder = Folder::new();
+    for path in airfoils() {
+        let name = path.display();
+        let text = String::from_utf8_lossy(&fs::read(&path).unwrap()).into_owned();
+        let expected = rows(&text);
+        let path = path.to_str().unwrap();
+        let (_, told) = folder.done(&["convert", path, "selig.batten"]);
+        assert!(told.contains("an airfoil in Selig order"), "{name}: {told}");
+        assert_eq!(points(&folder.inspect(&[path])), expected, "{name}");
+        // The other order: both sides from the leading edge.
+        let first = |a: &usize, b: &usize| expected[*a][0].total_cmp(&expected[*b][0]);
+        let nose = (0..expected.len()).min_by(first).unwrap();
+        let upper = expected[..=nose].iter().rev();
+        let lower = &expected[nose..];
+        let side = |rows: &mut dyn Iterator<Item = &[f64; 2]>| {
+            let lines = rows.map(|[x, y]| format!("  {x:?}  {y:?}\n"));
+            lines.collect::<String>()
+        };
+        let counts = format!("  {}.  {}.", nose + 1, lower.len());
+        let [upper, lower] = [side(&mut upper.clone()), side(&mut lower.iter())];
+        let lednicer = format!("title\n{counts}\n\n{upper}\n{lower}");
+        fs::write(folder.path("lednicer.dat"), lednicer).unwrap();
+        let (_, told) = folder.done(&["convert", "lednicer.dat", "selig.batten"]);
+        let order = "lednicer.dat: “title”: an airfoil in Lednicer order\n";
+        assert_eq!(told, format!("batten: {order}"), "{name}");
+        assert_eq!(
+            points(&folder.inspect(&["lednicer.dat"])),
+            expected,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_table_is_fitted_converted_and_inspected_in_one_step() {
+    let airfoil = airfoils().remove(0);
+    let text = fs::read(&airfoil).unwrap();
+    for extension in ["dat", "txt", "xyz", "pts", "csv"] {
+        let file = format!("foil.{extension}");
+        let folder = Folder::new().with(&file, &text);
+        let points = points(&folder.inspect(&[&file]));
+        folder.done(&["convert", &file, "foil.batten"]);
+        assert_eq!(
+            points.len(),
+            self::points(&folder.inspect(&["foil.batten"])).len()
+        );
+        let other = match extension {
+            "csv" => "back.dat",
+            _ => "back.csv",
+        };
+        folder.done(&["convert", &file, other]);
+        assert_eq!(self::points(&folder.inspect(&[other])), points);
+        if extension == "dat" {
+            folder.done(&["apply", "fit", &file, "fair.batten", "--tolerance", "0.01"]);
+            let fitted = folder.inspect(&["fair.batten"]);
+            assert_eq!(fitted["curves"].as_array().unwrap().len(), 1);
+        }
+    }
+}
+
+#[test]
+fn columns_are_chosen_wherever_a_table_is_read() {
+    let table = "station;half breadth [mm];height [mm]\n1;0;2\n2;1,5;4\n3;5;5\n";
+    let folder = Folder::new().with("hull.csv", table);
+    for arguments in [
+        &["inspect", "hull.csv"][..],
+        &["convert", "hull.csv", "out.batten"],
+        &["apply", "fit", "hull.csv", "out.batten"],
+    ] {
+        folder.refused(
+            arguments,
+            "hull.csv: line 1: which columns are x and y? There are 1 “station”, 2 “half breadth [mm]”, 3 “height [mm]”: name them x and y, or choose them with --columns, as in --columns 1,2",
+        );
+        for columns in ["2,3", "half breadth [mm],height [mm]"] {
+            folder.done(&[arguments, &["--columns", columns]].concat());
+        }
+    }
+    let inspected = folder.inspect(&["hull.csv", "--columns", "2,3"]);
+    assert_eq!(inspected["unit"], json!("mm"));
+    assert_eq!(points(&inspected), [[0.0, 2.0], [1.5, 4.0], [5.0, 5.0]]);
+    folder.refused(
+        &["inspect", "hull.csv", "--columns", "2,4"],
+        "hull.csv: line 1: the table has no column 4: it has 1 “station”, 2 “half breadth [mm]”, 3 “height [mm]”",
+    );
+    folder.misused(
+        &["inspect", "hull.csv", "--columns", "2"],
+        "2 or 3 different columns",
+    );
+    folder.done(&["example", "arc", "arc.batten"]);
+    folder.refused(
+        &["inspect", "arc.batten", "--columns", "1,2"],
+        "arc.batten: columns can only be chosen in a table of points",
+    );
+}
+
+#[test]
+fn a_track_is_read_in_metres() {
+    let track = r#"<gpx><trk><name>Bay</name><trkseg>
+<trkpt lat="54" lon="10"/><trkpt lat="54" lon="10.001"/><trkpt lat="54.001" lon="10.001"/>
+</trkseg></trk></gpx>"#;
+    let folder = Folder::new().with("bay.gpx", track);
+    let inspected = folder.inspect(&["bay.gpx"]);
+    assert_eq!(inspected["unit"], json!("m"));
+    assert_eq!(points(&inspected).len(), 3);
+    folder.done(&["convert", "bay.gpx", "bay.batten"]);
+    folder.refused(
+        &["convert", "bay.batten", "out.gpx"],
+        "out.gpx: GPX files can be read but not written: the formats that can be written are .batten, .csv, .dat, .txt, .xyz, .pts, .dxf",
+    );
+}
