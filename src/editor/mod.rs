@@ -22,6 +22,7 @@ pub use hand::{
     Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
     ToolRow, Transformation,
 };
+pub use jobs::file_reading::{ColumnQuestion, FileAnswer};
 pub use jobs::filing::{FileReply, Filing};
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, Recovery, with_extension};
 pub use operating::{Operating, OperationInProgress, Run};

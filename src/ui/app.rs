@@ -29,7 +29,9 @@ use super::status_bar::{self, status_bar_ui};
 use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
-use crate::editor::{Command, Editor, Layer, MenuOf, MenuSubject, Refusal, Reply, ToolKind, told};
+use crate::editor::{
+    Command, Editor, FileAnswer, Layer, MenuOf, MenuSubject, Refusal, Reply, ToolKind, told,
+};
 
 use crate::io::{Exporter, formats};
 
@@ -339,7 +341,12 @@ impl App {
         if let Some(incoming) = self.editor.filing().unit_question()
             && let Some(answer) = dialogs::unit_ui(context, incoming)
         {
-            told(self.editor.answer_unit(answer));
+            told(self.editor.answer_files(answer.map(FileAnswer::Unit)));
+        }
+        if let Some(question) = self.editor.filing().column_question()
+            && let Some(answer) = dialogs::columns_ui(context, question)
+        {
+            told(self.editor.answer_files(answer.map(FileAnswer::Columns)));
         }
         let canvas = self.canvas.rect().unwrap_or(context.content_rect());
         match recovery::recovery_ui(context, canvas, self.editor.recovery().recoverable()) {

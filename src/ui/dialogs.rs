@@ -1,14 +1,15 @@
 //! The few things that stop everything else: unsaved changes, a file that has changed, the list of
 //! keys, about.
 
-use eframe::egui::{Context, Key, Ui};
+use eframe::egui::{Context, Id, Key, Ui};
 
 use super::file_dialogs::AfterDiscard;
 use super::key_list::key_list_ui;
 use super::widgets;
 use crate::document::quoted;
-use crate::editor::Editor;
+use crate::editor::{ColumnQuestion, Editor};
 use crate::geometry::expressions::LengthUnit;
+use crate::io::ColumnChoice;
 
 /// The contents of a modal dialog.
 #[derive(Debug)]
@@ -78,6 +79,58 @@ pub fn unit_ui(context: &Context, incoming: LengthUnit) -> Option<Option<LengthU
         });
         answer
     })
+}
+
+/// Ask for the columns of x, y and z in a table. Returns the answer once there is one: `None` reads nothing.
+pub fn columns_ui(context: &Context, question: &ColumnQuestion) -> Option<Option<ColumnChoice>> {
+    let id = Id::unique("columns of a table");
+    let answer = widgets::modal(context, "columns", None, |ui| {
+        ui.set_width(400.0);
+        ui.strong("Choose the columns");
+        let name = question.path.file_name().unwrap_or_default();
+        let name = quoted(&name.to_string_lossy());
+        widgets::note(
+            ui,
+            &format!("{name} does not say which columns are x and y."),
+        );
+        let mut numbers = question.columns.iter().map(|it| it.number);
+        let offered = [numbers.next(), numbers.next(), None];
+        let mut picked = ui.data(|data| data.get_temp(id)).unwrap_or(offered);
+        let columns = question.columns.iter();
+        let columns = columns.map(|column| (Some(column.number), column.to_string()));
+        let columns: Vec<(Option<usize>, String)> = columns.collect();
+        let none = (None, "none".to_owned());
+        let with_none = [vec![none], columns.clone()].concat();
+        let offers = [("x", columns.clone()), ("y", columns), ("z", with_none)];
+        for (axis, (name, all)) in picked.iter_mut().zip(offers) {
+            widgets::form_row(ui, name, |ui| {
+                let (other, _) = widgets::drop_down(ui, name, 240.0, axis, all);
+                *axis = other.unwrap_or(*axis);
+            });
+        }
+        let chosen: Vec<usize> = picked.into_iter().flatten().collect();
+        let choice = ColumnChoice::of_numbers(&chosen);
+        ui.data_mut(|data| data.insert_temp(id, picked));
+        let is_entered = ui.input(|input| input.key_pressed(Key::Enter));
+        let mut answer = None;
+        ui.horizontal(|ui| {
+            widgets::at_right(ui, |ui| {
+                let button = |ui: &mut Ui| widgets::primary_button(ui, "Read");
+                let read = ui.add_enabled_ui(choice.is_some(), button).inner;
+                if (read.clicked() || is_entered) && choice.is_some() {
+                    answer = Some(choice);
+                }
+                if ui.button("Cancel").clicked() {
+                    answer = Some(None);
+                }
+            });
+        });
+        answer
+    });
+    if answer.is_some() {
+        context.data_mut(|data| data.remove_temp::<[Option<usize>; 3]>(id));
+    }
+    answer
 }
 
 /// Show a dialog's buttons from the right edge on. Enter presses the first.

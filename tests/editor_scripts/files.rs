@@ -4,10 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use batten::document::{Curve, Document, Extras};
-use batten::editor::{Command, Editor, Note};
+use batten::editor::{Command, Editor, FileAnswer, Note};
 use batten::geometry::expressions::LengthUnit;
 use batten::geometry::{FloatPolygon, PolygonKind};
-use batten::io::disk;
+use batten::io::{ColumnChoice, disk};
 use glam::DVec2;
 use tempfile::TempDir;
 
@@ -289,10 +289,59 @@ fn a_document_without_a_unit_is_asked_for_it() {
             .expect("a question");
         assert_eq!(editor.filing().unit_question(), Some(LengthUnit::Inch));
         assert_eq!(widths(&editor), (vec![2.0], None));
-        editor.answer_unit(answer).expect("an answer");
+        editor
+            .answer_files(answer.map(FileAnswer::Unit))
+            .expect("an answer");
         assert_eq!(editor.filing().unit_question(), None);
         assert_eq!(widths(&editor), expected);
     }
+}
+
+#[test]
+fn files_wait_for_the_columns_of_their_tables() {
+    let folder = folder();
+    let [inch, first, second, other] =
+        ["inch.batten", "1.dat", "2.dat", "3.dat"].map(|name| folder.path().join(name));
+    fs::copy(project_in(&folder, "a.batten", INCH), inch.clone()).expect("a copy");
+    for path in [&first, &second] {
+        fs::write(path, "0 1 2 3\n4 5 6 7\n8 9 10 11\n").expect("a table");
+    }
+    fs::write(&other, "a;b;c\n1;2;3\n4;5;6\n").expect("a table");
+    let paths = [inch, first.clone(), second, other.clone()];
+    let mut editor = Editor::with_document(in_unit(INCH));
+    let choice = |numbers: &[usize]| ColumnChoice::of_numbers(numbers).map(FileAnswer::Columns);
+    let asked = |editor: &Editor| editor.filing().column_question().map(|it| it.path.clone());
+    editor.import(&paths).expect("a question");
+    assert_eq!(asked(&editor), Some(first));
+    assert_eq!(editor.document().references().count(), 0);
+    // One answer serves all tables with these columns.
+    editor.answer_files(choice(&[3, 4])).expect("a question");
+    assert_eq!(asked(&editor), Some(other));
+    editor
+        .answer_files(choice(&[2, 1]))
+        .expect("curves and points");
+    assert_eq!(asked(&editor), None);
+    let document = editor.document();
+    assert_eq!(
+        (document.curves().count(), document.references().count()),
+        (2, 3)
+    );
+    let lists = document
+        .references()
+        .map(|(_, it)| it.points().expect("points")[0].truncate());
+    let lists: Vec<[f64; 2]> = lists.map(|it| it.to_array()).collect();
+    assert_eq!(lists, [[2.0, 3.0], [2.0, 3.0], [2.0, 1.0]]);
+    editor.execute(Command::Undo).expect("one step");
+    assert_eq!(editor.document().len(), 1);
+    // A refusal asks nothing, and nothing is read without an answer.
+    editor.import(&paths[1..2]).expect("a question");
+    editor
+        .answer_files(choice(&[1, 9]))
+        .expect_err("no such column");
+    assert_eq!(asked(&editor), None);
+    editor.import(&paths[1..2]).expect("a question");
+    editor.answer_files(None).expect("nothing");
+    assert_eq!((asked(&editor), editor.document().len()), (None, 1));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use batten::analysis::LevelPlot;
 use batten::document::{Colour, Curve, CurveId, Document, Edit};
 use batten::editor::{
-    CombSettings, Command, Editor, EndFitAction, EndFitMarks, Input, Layer, Look,
+    CombSettings, Command, Editor, EndFitAction, EndFitMarks, FileAnswer, Input, Layer, Look,
     OperationInProgress, PlotKind, Reply, Selection, Shortcut, Transformation, Viewport, told,
 };
 use batten::geometry::expressions::LengthUnit;
@@ -408,7 +408,7 @@ impl Window {
                     .for_each(|(path, it)| write(path, *it));
                 told(self.editor.open(&paths));
             }
-            OfFile::AnswerUnit(unit) => told(self.editor.answer_unit(*unit)),
+            OfFile::AnswerUnit(unit) => told(self.editor.answer_files(unit.map(FileAnswer::Unit))),
         }
     }
 

@@ -261,6 +261,37 @@ fn curves_in_another_unit_wait_for_the_unit_of_the_document() {
     assert_eq!((document.len(), document.unit()), (1, None));
 }
 
+#[test]
+fn columns_that_a_table_does_not_tell_are_chosen() {
+    let mut window = open_window();
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = folder.path().join("hull.csv");
+    std::fs::write(&table, "station;half breadth;height\n1;0;2\n2;1;4\n3;5;5\n").expect("the file");
+    let question = "Choose the columns";
+    drop_file(&mut window, &table);
+    window.get_by_label(question);
+    click(&mut window, "Cancel");
+    assert!(window.query_by_label(question).is_none());
+    let points = |window: &Window| {
+        let document = window.state().editor().document();
+        let mut lists = document
+            .references()
+            .map(|(_, it)| it.points().expect("points"));
+        lists.next().map(|list| (list, lists.count()))
+    };
+    assert_eq!(points(&window), None);
+    drop_file(&mut window, &table);
+    for (axis, column) in [("x", "2 “half breadth”"), ("y", "3 “height”")] {
+        click(&mut window, axis);
+        click(&mut window, column);
+    }
+    click(&mut window, "Read");
+    assert!(window.query_by_label(question).is_none());
+    let expected = [[0.0, 2.0], [1.0, 4.0], [5.0, 5.0]];
+    let expected = expected.map(|[x, y]| glam::DVec3::new(x, y, 0.0));
+    assert_eq!(points(&window), Some((expected.to_vec(), 0)));
+}
+
 #[derive(Debug)]
 struct Dropped(PathBuf);
 

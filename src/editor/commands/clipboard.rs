@@ -8,7 +8,8 @@ use crate::document::{
     Curve, CurveId, Document, Edit, Extras, LockedVertices, Reference, free_name, quoted,
 };
 use crate::editor::Editor;
-use crate::editor::jobs::filing::{Incoming, Purpose, ReadDocument};
+use crate::editor::jobs::file_reading::Purpose;
+use crate::editor::jobs::filing::{Incoming, ReadDocument};
 use crate::editor::reply::{Note, Refusal, Reply};
 use crate::editor::selection::Selection;
 use crate::geometry::expressions::LengthUnit;

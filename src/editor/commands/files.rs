@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Document, Edit};
 use crate::editor::Editor;
+use crate::editor::jobs::file_reading::Purpose;
 use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork, Filing};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::view::{Look, Viewport};
@@ -30,7 +31,7 @@ impl Editor {
         if paths.is_empty() {
             return Ok(Note::silent());
         }
-        self.start_file_task(FileTask::Open(paths.to_owned()))
+        self.start_file_task(FileTask::read(paths, Purpose::Open))
     }
 
     /// Open a document that was made elsewhere in place of the present one. The message shows a refusal.
@@ -76,7 +77,7 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if a file cannot be read; nothing is changed then.
     pub fn import(&mut self, paths: &[PathBuf]) -> Reply {
-        self.start_file_task(FileTask::Import(paths.to_owned()))
+        self.start_file_task(FileTask::read(paths, Purpose::Import))
     }
 
     /// Save the document without the preview, which goes on.
@@ -154,7 +155,7 @@ impl Editor {
         Some(reply)
     }
 
-    fn start_file_task(&mut self, task: FileTask) -> Reply {
+    pub(in crate::editor) fn start_file_task(&mut self, task: FileTask) -> Reply {
         if let Some(work) = self.filing.work() {
             let busy = format!("{} Wait until that is done", work.text);
             return self.tell(Err(Refusal(busy)));
@@ -198,6 +199,10 @@ impl Editor {
                 Ok(Note::done(text))
             }
             FileResult::Read(incoming) => self.merge(incoming, None),
+            FileResult::Asked(question) => {
+                self.filing.column_question = Some(question);
+                Ok(Note::silent())
+            }
             FileResult::Saved {
                 path,
                 document,
@@ -233,6 +238,7 @@ impl Editor {
     pub(in crate::editor) fn replace(&mut self, document: Document, path: Option<PathBuf>) {
         self.interrupt();
         self.filing.question = None;
+        self.filing.column_question = None;
         self.workspace.replace(document, path);
         self.hand.begin_document();
         self.view.compared = None;

@@ -3,7 +3,8 @@
 
 use crate::document::{Document, Edit, MergeError};
 use crate::editor::Editor;
-use crate::editor::jobs::filing::{Incoming, Purpose, UnitQuestion};
+use crate::editor::jobs::file_reading::{FileAnswer, Purpose};
+use crate::editor::jobs::filing::{FileTask, Incoming, UnitQuestion};
 use crate::editor::reply::{Note, Refusal, Reply, with_lines};
 use crate::editor::view::Look;
 use crate::geometry::expressions::LengthUnit;
@@ -17,13 +18,23 @@ struct Merged {
 }
 
 impl Editor {
-    /// Answer the question for the document's unit; `None` adds nothing. The message shows the reply.
+    /// Answer the question of files for the document's unit or a table's columns; `None` adds nothing. The
+    /// message shows the reply.
     ///
     /// # Errors
-    /// [`Refusal`] if the documents cannot be added; nothing is changed then.
-    pub fn answer_unit(&mut self, unit: Option<LengthUnit>) -> Reply {
-        let reply = match (self.filing.question.take(), unit) {
-            (Some(question), Some(_)) => self.merge(question.waiting, unit),
+    /// [`Refusal`] if the files cannot be read or added; nothing is changed then.
+    pub fn answer_files(&mut self, answer: Option<FileAnswer>) -> Reply {
+        let filing = &mut self.filing;
+        let questions = (filing.question.take(), filing.column_question.take());
+        let reply = match (answer, questions) {
+            (Some(FileAnswer::Unit(unit)), (Some(question), _)) => {
+                self.merge(question.waiting, Some(unit))
+            }
+            (Some(FileAnswer::Columns(choice)), (_, Some(question))) => {
+                let mut files = question.waiting;
+                files.answers.push((question.columns, choice));
+                return self.start_file_task(FileTask::Read(files));
+            }
             _ => Ok(Note::silent()),
         };
         self.tell(reply)

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::Client;
 use super::autosaving::Autosaver;
+use super::file_reading::{ColumnQuestion, FilesToRead, Purpose, Unread};
 use super::patience::Patience;
 use crate::document::{Curve, Document, Reference, quoted};
 use crate::editor::reply::{Refusal, Reply, with_lines};
@@ -22,6 +23,8 @@ pub struct Filing {
     pub(in crate::editor) reply: Option<FileReply>,
     /// Documents that wait for the unit of the document that receives them.
     pub(in crate::editor) question: Option<UnitQuestion>,
+    /// Files that wait for the columns of a table.
+    pub(in crate::editor) column_question: Option<Box<ColumnQuestion>>,
 }
 
 /// A task that is not finished.
@@ -38,12 +41,10 @@ pub struct FileWork {
 /// A request to read or write files.
 #[derive(Debug)]
 pub(in crate::editor) enum FileTask {
-    /// Read files as one document.
-    Open(Vec<PathBuf>),
+    /// Read files as one document, or to add their curves.
+    Read(FilesToRead),
     /// Read the document's own file again.
     Reload(PathBuf),
-    /// Read files whose curves are added.
-    Import(Vec<PathBuf>),
     /// Write the document; refuse if its file is known and holds something else.
     Save {
         path: PathBuf,
@@ -74,6 +75,8 @@ pub(in crate::editor) enum FileResult {
     },
     /// Documents to be merged.
     Read(Incoming),
+    /// A table whose columns must be chosen first.
+    Asked(Box<ColumnQuestion>),
     Saved {
         path: PathBuf,
         document: Document,
@@ -101,17 +104,6 @@ pub(in crate::editor) struct ReadDocument {
     /// The prefix of its remarks, as "hull.csv: ".
     pub name: String,
     pub remarks: String,
-}
-
-/// What becomes of merged documents.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::editor) enum Purpose {
-    /// They replace the document.
-    Open,
-    /// They are added.
-    Import,
-    /// Copies of them are added.
-    Paste,
 }
 
 /// The reply to a request to read or write files.
@@ -148,10 +140,16 @@ impl Filing {
     }
 
     /// The unit of documents that cannot be added until
-    /// [`Editor::answer_unit`](crate::editor::Editor::answer_unit) gives the unit of the document that
+    /// [`Editor::answer_files`](crate::editor::Editor::answer_files) gives the unit of the document that
     /// receives them.
     pub fn unit_question(&self) -> Option<LengthUnit> {
         self.question.as_ref().map(|question| question.incoming)
+    }
+
+    /// The table that cannot be read until
+    /// [`Editor::answer_files`](crate::editor::Editor::answer_files) chooses its columns.
+    pub fn column_question(&self) -> Option<&ColumnQuestion> {
+        self.column_question.as_deref()
     }
 
     /// The task that is not finished.
@@ -243,6 +241,15 @@ impl FileResult {
 }
 
 impl FileTask {
+    /// Read files for a purpose.
+    pub(in crate::editor) fn read(paths: &[PathBuf], purpose: Purpose) -> Self {
+        Self::Read(FilesToRead {
+            paths: paths.to_owned(),
+            purpose,
+            answers: Vec::new(),
+        })
+    }
+
     /// The text in the window while the task runs.
     fn text(&self) -> String {
         let name = |path: &Path| {
@@ -254,9 +261,11 @@ impl FileTask {
             paths => counted(paths.len(), "file", "files"),
         };
         match self {
-            Self::Open(paths) => format!("Opening {}…", names(paths)),
+            Self::Read(files) => match files.purpose {
+                Purpose::Open => format!("Opening {}…", names(&files.paths)),
+                _ => format!("Importing {}…", names(&files.paths)),
+            },
             Self::Reload(path) => format!("Reloading {}…", name(path)),
-            Self::Import(paths) => format!("Importing {}…", names(paths)),
             Self::Save { path, .. } => format!("Saving {}…", name(path)),
             Self::Export { path, .. } => format!("Exporting {}…", name(path)),
         }
@@ -264,12 +273,18 @@ impl FileTask {
 
     fn run(self, autosaver: Option<&Autosaver>) -> Result<FileResult, Refusal> {
         match self {
-            Self::Open(paths) => match paths.as_slice() {
-                [path] => open(path, autosaver),
-                paths => read_all(paths, Purpose::Open),
-            },
+            Self::Read(files) => {
+                let read = match (files.purpose, files.paths.as_slice()) {
+                    (Purpose::Open, [path]) => open(&files, path, autosaver),
+                    _ => read_all(&files),
+                };
+                match read {
+                    Ok(result) => Ok(result),
+                    Err(Unread::Asked(question)) => Ok(FileResult::Asked(question)),
+                    Err(Unread::Refused(refusal)) => Err(refusal),
+                }
+            }
             Self::Reload(path) => reload(&path),
-            Self::Import(paths) => read_all(&paths, Purpose::Import),
             Self::Save {
                 path,
                 document,
@@ -284,8 +299,12 @@ impl FileTask {
     }
 }
 
-fn open(path: &Path, autosaver: Option<&Autosaver>) -> Result<FileResult, Refusal> {
-    let (mut reading, fingerprint) = disk::read_with_fingerprint(path, None, None)?;
+fn open(
+    files: &FilesToRead,
+    path: &Path,
+    autosaver: Option<&Autosaver>,
+) -> Result<FileResult, Unread> {
+    let (mut reading, fingerprint) = files.read(path)?;
     let text = format!("{} read from {}", reading.counted(), shown_path(path));
     let remarks = std::mem::take(&mut reading.remarks);
     let document = reading.into_document()?;
@@ -385,9 +404,9 @@ fn export_visible(
 }
 
 /// Read several files, to be merged.
-fn read_all(paths: &[PathBuf], purpose: Purpose) -> Result<FileResult, Refusal> {
-    let documents = paths.iter().map(|path| {
-        let mut reading = disk::read_file(path)?;
+fn read_all(files: &FilesToRead) -> Result<FileResult, Unread> {
+    let documents = files.paths.iter().map(|path| {
+        let (mut reading, _) = files.read(path)?;
         let remarks = std::mem::take(&mut reading.remarks).to_string();
         Ok(ReadDocument {
             document: reading.into_document()?,
@@ -395,7 +414,8 @@ fn read_all(paths: &[PathBuf], purpose: Purpose) -> Result<FileResult, Refusal> 
             remarks,
         })
     });
-    let documents = documents.collect::<Result<_, Refusal>>()?;
+    let documents = documents.collect::<Result<_, Unread>>()?;
+    let purpose = files.purpose;
     Ok(FileResult::Read(Incoming { purpose, documents }))
 }
 
