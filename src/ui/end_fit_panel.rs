@@ -47,8 +47,8 @@ pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
         step.or(end).map(FieldEvent::Set).or(event)
     };
     let room = ui.available_rect_before_wrap();
-    let has_outcome = report.outcome.is_some();
-    let footer = 2.0 * ROW + 3.0 * STEP + if has_outcome { OUTCOME } else { 0.0 };
+    // The place for the message is always there, so that nothing moves when one comes.
+    let footer = 2.0 * ROW + 3.0 * STEP + OUTCOME;
     let (above, below) = room.split_top_bottom_at_y(room.bottom() - footer);
     let event = inside(ui, above, |ui| {
         widgets::scrolling(ui, "end fit", |ui| ui.push_id(id, panel).inner)
