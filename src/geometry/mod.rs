@@ -24,6 +24,7 @@ mod expansion;
 pub mod expressions;
 pub mod fairing;
 pub mod features;
+pub mod fitting;
 mod float_polygon;
 pub mod harmony;
 mod jet;

@@ -1,5 +1,9 @@
 //! A curve through the middle of points.
 
+use std::time::Duration;
+
+use glam::{DVec2, DVec3};
+
 use super::amount::Amount;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -7,14 +11,18 @@ use super::lists::{given, given_count};
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
-use super::parameter::{Kind, POSITIVE, Parameter};
+use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit};
-use crate::geometry::approximation::{FitError, FitRequest, Fitted, fit_points};
-use crate::geometry::parameters::OutOfRange;
+use crate::geometry::approximation::{FitRequest, fit_points};
+use crate::geometry::fitting::{Extrema, FitError, Fitted, PlaneFit, corners, fit_plane};
+use crate::geometry::parameters::{OutOfRange, Quantity};
 use crate::geometry::{MAX_DEGREE, Progress, counted, significant};
 
-/// A fit is far off if the nearest one with as many vertices is nearer by this factor.
+/// The time that a search has, in seconds.
+const TIME: f64 = 10.0;
+
+/// A fit in space is far off if the nearest one with as many vertices is nearer by this factor.
 const FAR: f64 = 1.3;
 
 const DEGREE: Parameter = Parameter {
@@ -35,120 +43,512 @@ const COUNT: Parameter = Parameter {
     name: "count",
     label: "Vertices",
     help: "The number of vertices",
-    kind: Kind::optional_count(usize::MAX, false, |_| "from the points or the tolerance"),
+    kind: Kind::optional_count(usize::MAX, false, |_| "as many as it takes"),
+};
+
+const MOST: Parameter = Parameter {
+    name: "max-vertices",
+    label: "Most vertices",
+    help: "The most vertices that are tried",
+    kind: Kind::optional_count(usize::MAX, false, |_| "half the number of points"),
 };
 
 const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
     help: "How many extrema of the curvature the curve has, proved",
+    kind: Kind::optional_count(usize::MAX, false, |_| "the fewest for the tolerance"),
+};
+
+const INFLECTIONS: Parameter = Parameter {
+    name: "inflections",
+    label: "Inflections",
+    help: "How many inflections a planar curve has, proved",
     kind: Kind::optional_count(usize::MAX, false, |_| "any number"),
 };
 
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Tolerance",
-    help: "How far points may be from the curve, outliers aside; the curve is as fair as this allows",
-    kind: Kind::optional_number(POSITIVE, |_| "none"),
+    help: "How far points may be from the curve; it has as few extrema as this allows",
+    kind: Kind::optional_number(POSITIVE, |_| "5e-4 of the size, or 3 times the noise"),
 };
+
+const ENDS: Parameter = Parameter {
+    name: "ends",
+    label: "Ends",
+    help: "Whether the curve begins and ends just at the outer points",
+    kind: Kind::Choice {
+        options: &[Choice::new("free", "Free"), Choice::new("exact", "Exact")],
+        default: 0,
+    },
+};
+
+const PERIODIC: Parameter = Parameter {
+    name: "periodic",
+    label: "Periodic",
+    help: "Close the curve: the first point follows the last one",
+    kind: Kind::Switch { default: false },
+};
+
+const OUTLIERS: Parameter = Parameter {
+    name: "outliers",
+    label: "Outliers",
+    help: "Whether isolated points far off count; by default they do with a tolerance alone",
+    kind: Kind::Choice {
+        options: &[
+            Choice::new("auto", "Automatic"),
+            Choice::new("isolated", "Left out"),
+            Choice::new("keep", "Kept"),
+        ],
+        default: 0,
+    },
+};
+
+const LEFT_OUT: Parameter = Parameter {
+    name: "leave-out",
+    label: "Left out",
+    help: "The points that do not count, counted from 0, instead of outliers",
+    kind: Kind::List {
+        count: 1..=usize::MAX,
+        whole: true,
+        limits: ANY,
+        quantity: Quantity::Number,
+        none: |_| "outliers",
+        in_space: false,
+    },
+};
+
+const SPLIT: Parameter = Parameter {
+    name: "split-corners",
+    label: "Split corners",
+    help: "Make one curve for each piece between corners of the points",
+    kind: Kind::Switch { default: false },
+};
+
+/// Any direction of the plane.
+const PLANE: std::ops::RangeInclusive<usize> = 2..=2;
+
+const START_DIRECTION: Parameter = Parameter {
+    name: "start-direction",
+    label: "Start direction",
+    help: "The direction at the start, along the curve",
+    kind: Kind::list(PLANE, |_| "free"),
+};
+
+const START_CURVATURE: Parameter = Parameter {
+    name: "start-curvature",
+    label: "Start curvature",
+    help: "The curvature at the start, positive where it turns left",
+    kind: Kind::optional_number(ANY, |_| "free"),
+};
+
+const END_DIRECTION: Parameter = Parameter {
+    name: "end-direction",
+    label: "End direction",
+    help: "The direction at the end, along the curve",
+    kind: Kind::list(PLANE, |_| "free"),
+};
+
+const END_CURVATURE: Parameter = Parameter {
+    name: "end-curvature",
+    label: "End curvature",
+    help: "The curvature at the end, positive where it turns left",
+    kind: Kind::optional_number(ANY, |_| "free"),
+};
+
+const TIME_LIMIT: Parameter = Parameter {
+    name: "time-limit",
+    label: "Time limit",
+    help: "The seconds after which the search ends with the best so far",
+    kind: Kind::optional_number(POSITIVE, |_| "10"),
+};
+
+/// What counts in the plane alone.
+const IN_PLANE: [&Parameter; 12] = [
+    &MOST,
+    &INFLECTIONS,
+    &ENDS,
+    &PERIODIC,
+    &OUTLIERS,
+    &LEFT_OUT,
+    &SPLIT,
+    &START_DIRECTION,
+    &START_CURVATURE,
+    &END_DIRECTION,
+    &END_CURVATURE,
+    &TIME_LIMIT,
+];
 
 /// The operation: its description, and how it is run.
 pub static OPERATION: Operation = Operation {
     name: "fit",
     label: "Fit points",
-    help: "Draw a fair curve through the middle of points by least squares; points far off do not count",
+    help: "Draw a curve with few curvature extrema through the middle of points",
     inputs: Inputs::Points,
-    parameters: &[DEGREE, COUNT, EXTREMA, TOLERANCE],
+    parameters: &[
+        DEGREE,
+        EXTREMA,
+        TOLERANCE,
+        COUNT,
+        MOST,
+        INFLECTIONS,
+        ENDS,
+        START_DIRECTION,
+        START_CURVATURE,
+        END_DIRECTION,
+        END_CURVATURE,
+        PERIODIC,
+        SPLIT,
+        OUTLIERS,
+        LEFT_OUT,
+        TIME_LIMIT,
+    ],
     check: |_| Ok(()),
     unused: |_| &[],
     run,
 };
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
-    let asked = FitRequest {
+    if input.points().iter().any(|point| point.z != 0.0) {
+        return in_space(input, values, progress);
+    }
+    let points = input.points().iter().map(|point| point.truncate());
+    let points: Vec<DVec2> = points.collect();
+    let asked = asked(&points, values)?;
+    let seconds = given(values, &TIME_LIMIT).unwrap_or(TIME);
+    let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
+    let progress = progress.limited(limit);
+    let corners = match asked.periodic {
+        true => Vec::new(),
+        false => corners(&points),
+    };
+    let bounds = match values.switch(&SPLIT) {
+        true => [&[0], &corners[..], &[points.len().saturating_sub(1)]].concat(),
+        false => vec![0, points.len().saturating_sub(1)],
+    };
+    let pieces = bounds.windows(2).map(|bounds| Piece {
+        first: bounds[0],
+        last: bounds[1],
+        is_outer: [bounds[0] == 0, bounds[1] + 1 == points.len()],
+    });
+    let fitted = pieces.map(|piece| piece.fit(&points, &asked, &progress));
+    let fitted: Vec<Fitted> = fitted.collect::<Result<_, _>>()?;
+    Ok(outcome(input, values, &asked, &fitted, &corners))
+}
+
+/// The points of one curve.
+struct Piece {
+    first: usize,
+    last: usize,
+    /// Whether it begins, and ends, where all points do.
+    is_outer: [bool; 2],
+}
+
+impl Piece {
+    /// Fit one curve, whose inner ends are just at the corners. Points keep their numbers.
+    fn fit(
+        &self,
+        points: &[DVec2],
+        asked: &PlaneFit,
+        progress: &Progress,
+    ) -> Result<Fitted, OperationError> {
+        let ends = [0, 1].map(|end| !self.is_outer[end] || asked.exact_ends[end]);
+        let outer = self.is_outer;
+        let own = |numbers: &Vec<usize>| {
+            let inside = numbers
+                .iter()
+                .filter(|it| (self.first..=self.last).contains(it));
+            inside.map(|number| number - self.first).collect()
+        };
+        let asked = PlaneFit {
+            exact_ends: ends,
+            directions: [0, 1].map(|end| asked.directions[end].filter(|_| outer[end])),
+            curvatures: [0, 1].map(|end| asked.curvatures[end].filter(|_| outer[end])),
+            outliers: asked.outliers.as_ref().map(own),
+            ..asked.clone()
+        };
+        let found = fit_plane(&points[self.first..=self.last], &asked, progress);
+        let mut found = found.map_err(|error| match error {
+            FitError::Cancelled => OperationError::Cancelled,
+            error => error.into(),
+        })?;
+        for (outlier, _) in &mut found.outliers {
+            *outlier += self.first;
+        }
+        for repeated in &mut found.repeated {
+            *repeated += self.first;
+        }
+        Ok(found)
+    }
+}
+
+/// What is asked for in the plane.
+fn asked(points: &[DVec2], values: &Values) -> Result<PlaneFit, OperationError> {
+    let direction = |parameter: &Parameter| {
+        let numbers = values.list(parameter);
+        let [x, y] = *numbers else { return Ok(None) };
+        match DVec2::new(x, y).try_normalize() {
+            Some(direction) => Ok(Some(direction)),
+            None => Err(OperationError::from(OutOfRange {
+                label: parameter.label,
+                value: "0, 0".into(),
+                needed: "no direction: give one that is not 0".into(),
+            })),
+        }
+    };
+    let left_out = values.list(&LEFT_OUT);
+    let tolerance = given(values, &TOLERANCE);
+    let kept = [None, Some(false), Some(true)];
+    let outliers = match values
+        .choice(&OUTLIERS, &kept)
+        .unwrap_or(tolerance.is_some())
+    {
+        _ if !left_out.is_empty() => {
+            if let Some(beyond) = left_out.iter().find(|it| **it >= points.len() as f64) {
+                return Err(OutOfRange {
+                    label: LEFT_OUT.label,
+                    value: beyond.to_string().into(),
+                    needed: format!("below {}, the number of points,", points.len()).into(),
+                }
+                .into());
+            }
+            Some(left_out.iter().map(|number| *number as usize).collect())
+        }
+        true => Some(Vec::new()),
+        false => None,
+    };
+    let exact = values.choice(&ENDS, &[false, true]);
+    Ok(PlaneFit {
         degree: values.whole(&DEGREE),
-        count: vertices(input, values)?,
-        extrema: given_count(values, &EXTREMA),
-        tolerance: given(values, &TOLERANCE),
-    };
-    let found = match fit_points(input.points(), &asked, progress) {
-        Ok(found) => found,
-        Err(FitError::Cancelled) => return Err(OperationError::Cancelled),
-        Err(error) => return Err(error.into()),
-    };
-    let name = input.document().free_name("fit");
-    let annotations = found.outliers.iter();
-    let annotations = annotations.filter_map(|index| input.points().get(*index));
-    Ok(Outcome {
-        reached: found.reached,
-        edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
-        figures: figures(&asked, &found),
-        remarks: remarks(&asked, &found),
-        annotations: annotations.map(|point| Annotation::Point(*point)).collect(),
-        ..Outcome::unchanged(Deviation::FromPoints(found.largest))
+        periodic: values.switch(&PERIODIC),
+        count: vertices(points.len(), values)?,
+        most: given_count(values, &MOST),
+        extrema: given_count(values, &EXTREMA).map_or(Extrema::Fewest, Extrema::Exactly),
+        inflections: given_count(values, &INFLECTIONS),
+        tolerance,
+        exact_ends: [exact, exact],
+        directions: [direction(&START_DIRECTION)?, direction(&END_DIRECTION)?],
+        curvatures: [
+            given(values, &START_CURVATURE),
+            given(values, &END_CURVATURE),
+        ],
+        outliers,
     })
 }
 
 /// The number of vertices asked for, at most as many as there are points.
-fn vertices(input: &Operands, values: &Values) -> Result<Option<usize>, OperationError> {
-    let most = input.points().len();
+fn vertices(points: usize, values: &Values) -> Result<Option<usize>, OperationError> {
     match given_count(values, &COUNT) {
-        Some(count) if count > most => Err(OutOfRange {
+        Some(count) if count > points => Err(OutOfRange {
             label: COUNT.label,
             value: count.to_string().into(),
-            needed: format!("at most {most}, the number of points,").into(),
+            needed: format!("at most {points}, the number of points,").into(),
         }
         .into()),
         count => Ok(count),
     }
 }
 
-fn figures(asked: &FitRequest, found: &Fitted) -> Vec<Figure> {
-    let any = asked.extrema.map(|_| {
-        let label = "RMS with any number of extrema";
-        Figure::length("rms_of_any", label, found.rms_of_any)
+fn outcome(
+    input: &Operands,
+    values: &Values,
+    asked: &PlaneFit,
+    fitted: &[Fitted],
+    corners: &[usize],
+) -> Outcome {
+    let name = |index: usize| match fitted.len() {
+        1 => "fit".to_owned(),
+        _ => format!("fit {}", index + 1),
+    };
+    let curves = fitted.iter().enumerate().map(|(index, found)| {
+        let name = input.document().free_name(&name(index));
+        Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))
     });
-    let before = [
-        Figure::count("vertices", "Vertices", found.polygon.vertices().len()),
-        Figure::count("extrema", "Curvature extrema", found.extrema),
-        Figure::length("rms", "Off on average (RMS)", found.rms),
-    ];
-    let behind = [
-        Figure::count("outliers", "Outliers", found.outliers.len()),
-        Figure::indices("outlying_points", "Outlying points", &found.outliers),
-        Figure::number("fairness", "Fairness weight", found.fairness),
-    ];
-    before.into_iter().chain(any).chain(behind).collect()
+    let marked = fitted.iter().flat_map(|found| &found.outliers);
+    let marked = marked.filter_map(|(index, _)| input.points().get(*index));
+    let worst = |of: fn(&Fitted) -> f64| fitted.iter().map(of).fold(0.0, f64::max);
+    let mut remarks: Vec<String> = fitted.iter().flat_map(|it| remarks(asked, it)).collect();
+    if !corners.is_empty() && !values.switch(&SPLIT) {
+        let corners: Vec<String> = corners.iter().map(usize::to_string).collect();
+        remarks.push(format!(
+            "The points have corners at {}: with “Split corners” each piece becomes a curve",
+            corners.join(", ")
+        ));
+    }
+    Outcome {
+        reached: fitted.iter().all(|found| is_reached(asked, found)),
+        edits: curves.collect(),
+        figures: figures(fitted),
+        remarks,
+        annotations: marked.map(|point| Annotation::Point(*point)).collect(),
+        ..Outcome::unchanged(Deviation::FromPoints(worst(|found| found.deviation)))
+    }
 }
 
-/// What is to say beside the figures: counts and tolerances that are missed, and a fit that is far off.
-fn remarks(asked: &FitRequest, found: &Fitted) -> Vec<String> {
+/// Whether extrema, ends and tolerance are as asked for.
+fn is_reached(asked: &PlaneFit, found: &Fitted) -> bool {
+    let near = |tolerance: f64| found.deviation <= tolerance;
+    found.holds && asked.tolerance.is_none_or(near)
+}
+
+fn figures(fitted: &[Fitted]) -> Vec<Figure> {
+    let sum = |of: fn(&Fitted) -> usize| fitted.iter().map(of).sum();
+    let worst = |of: fn(&Fitted) -> f64| fitted.iter().map(of).fold(0.0, f64::max);
+    let outliers = fitted.iter().flat_map(|found| &found.outliers);
+    let outliers: Vec<usize> = outliers.map(|(index, _)| *index).collect();
+    let rows = |found: &Fitted| {
+        let rows = found.trade_off.iter();
+        let rows = rows.map(|it| vec![it.extrema as f64, it.vertices as f64, it.rms, it.largest]);
+        rows.collect::<Vec<_>>()
+    };
+    let least = fitted.iter().find_map(|found| found.least_extrema);
+    let mut figures = vec![
+        Figure::count(
+            "vertices",
+            "Vertices",
+            sum(|it| it.polygon.vertices().len()),
+        ),
+        Figure::count("extrema", "Curvature extrema", sum(|it| it.extrema)),
+        Figure::count("inflections", "Inflections", sum(|it| it.inflections)),
+        Figure::length("rms", "Off on average (RMS)", worst(|it| it.rms)),
+        Figure::length("largest", "Largest distance", worst(|it| it.largest)),
+        Figure::length("noise", "Estimated noise", worst(|it| it.noise)),
+        Figure::count("outliers", "Outliers", outliers.len()),
+        Figure::indices("outlying_points", "Outlying points", &outliers),
+    ];
+    figures.extend(least.map(|least| {
+        let label = "Extrema that keep the tolerance";
+        Figure::count("least_extrema", label, least)
+    }));
+    if let [found] = fitted {
+        let columns = &["extrema", "vertices", "rms", "largest"];
+        figures.push(Figure::table(
+            "trade_off",
+            "Trade-off",
+            columns,
+            rows(found),
+        ));
+    }
+    figures
+}
+
+/// What is to say beside the figures.
+fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
     let mut remarks = Vec::new();
-    let vertices = found.polygon.vertices().len();
-    if let Some(extrema) = asked.extrema.filter(|extrema| *extrema != found.extrema) {
+    if !found.outliers.is_empty() {
+        let points = found.outliers.iter();
+        let points = points.map(|(index, off)| format!("{index} ({} off)", significant(*off, 3)));
+        let points: Vec<String> = points.collect();
+        remarks.push(format!("Left out: {}", points.join(", ")));
+    }
+    if !found.repeated.is_empty() {
+        let points = counted(found.repeated.len(), "point repeats", "points repeat");
+        remarks.push(format!("{points} the one before: each counts once"));
+    }
+    if !found.holds {
         let has = counted(found.extrema, "curvature extremum", "curvature extrema");
         remarks.push(format!(
-            "The curve has {has}, {extrema} asked for: give it more vertices, or ask for another number"
+            "No curve was found that holds all that is asked for: this one has {has}. Ask for other extrema, or more vertices"
+        ));
+    }
+    if let Some(tolerance) = asked.tolerance.filter(|it| found.deviation > *it) {
+        let [off, tolerance] = [found.deviation, tolerance].map(|length| significant(length, 3));
+        let more = match (found.least_extrema, asked.extrema) {
+            (Some(least), _) => {
+                format!("with {} it is kept", counted(least, "extremum", "extrema"))
+            }
+            (None, Extrema::Exactly(_)) => "allow more, or another number of extrema".to_owned(),
+            (None, Extrema::Fewest) => "allow more".to_owned(),
+        };
+        remarks.push(format!(
+            "One point is {off} off the curve, the tolerance is {tolerance}: {more}"
+        ));
+    } else if asked.tolerance.is_none() && asked.extrema == Extrema::Fewest {
+        let tolerance = significant(found.tolerance, 3);
+        if found.deviation > found.tolerance {
+            let off = significant(found.deviation, 3);
+            remarks.push(format!(
+                "Nothing found keeps {tolerance}, which the noise lets expect: one point is {off} off"
+            ));
+        }
+    }
+    if let Some(tolerance) = asked.tolerance.filter(|it| *it < found.noise) {
+        let [noise, tolerance] = [found.noise, tolerance].map(|length| significant(length, 3));
+        remarks.push(format!(
+            "The tolerance {tolerance} is below the estimated noise {noise} of the points"
+        ));
+    }
+    if found.stopped {
+        remarks.push("The time was up: this is the best found so far".to_owned());
+    }
+    remarks
+}
+
+/// Fit a curve in space.
+fn in_space(
+    input: &Operands,
+    values: &Values,
+    progress: &Progress,
+) -> Result<Outcome, OperationError> {
+    let points: &[DVec3] = input.points();
+    let asked = FitRequest {
+        degree: values.whole(&DEGREE),
+        count: vertices(points.len(), values)?,
+        extrema: given_count(values, &EXTREMA),
+        tolerance: given(values, &TOLERANCE),
+    };
+    let found = fit_points(points, &asked, progress).map_err(|error| match error {
+        FitError::Cancelled => OperationError::Cancelled,
+        error => error.into(),
+    })?;
+    let mut remarks = Vec::new();
+    if asked
+        .extrema
+        .is_some_and(|extrema| extrema != found.extrema)
+    {
+        let has = counted(found.extrema, "curvature extremum", "curvature extrema");
+        remarks.push(format!(
+            "The curve has {has}: give it more vertices, or ask for other extrema"
         ));
     } else if found.rms > FAR * found.rms_of_any {
         let [rms, any] = [found.rms, found.rms_of_any].map(|length| significant(length, 3));
         remarks.push(format!(
-            "With any number of extrema {vertices} vertices come nearer to the points: RMS {any}, not {rms}. Give the curve more vertices, or ask for another number of extrema"
+            "With any number of extrema the RMS is {any}, not {rms}"
         ));
     }
-    if let Some(tolerance) = asked
-        .tolerance
-        .filter(|tolerance| found.largest > *tolerance)
-    {
-        let [largest, tolerance] = [found.largest, tolerance].map(|length| significant(length, 3));
-        let more = match (asked.count, asked.extrema) {
-            (Some(_), _) => "give it more vertices, or allow more",
-            (None, Some(_)) => "allow more, or another number of extrema",
-            (None, None) => "allow more",
-        };
+    if let Some(tolerance) = asked.tolerance.filter(|it| found.largest > *it) {
+        let [off, tolerance] = [found.largest, tolerance].map(|length| significant(length, 3));
         remarks.push(format!(
-            "One point is {largest} off the curve, the tolerance is {tolerance}: {more}"
+            "One point is {off} off the curve, the tolerance is {tolerance}: allow more"
         ));
     }
-    remarks
+    let is_given = |parameter: &&&Parameter| {
+        let default = parameter.default(input).ok();
+        default.as_ref() != Some(values.get(parameter))
+    };
+    let ignored: Vec<&str> = IN_PLANE
+        .iter()
+        .filter(is_given)
+        .map(|it| it.label)
+        .collect();
+    if !ignored.is_empty() {
+        remarks.push(format!("Of planar points alone: {}", ignored.join(", ")));
+    }
+    let name = input.document().free_name("fit");
+    let marked = found.outliers.iter().filter_map(|index| points.get(*index));
+    Ok(Outcome {
+        reached: found.reached,
+        edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
+        figures: vec![
+            Figure::count("vertices", "Vertices", found.polygon.vertices().len()),
+            Figure::count("extrema", "Curvature extrema", found.extrema),
+            Figure::length("rms", "Off on average (RMS)", found.rms),
+            Figure::count("outliers", "Outliers", found.outliers.len()),
+            Figure::indices("outlying_points", "Outlying points", &found.outliers),
+        ],
+        remarks,
+        annotations: marked.map(|point| Annotation::Point(*point)).collect(),
+        ..Outcome::unchanged(Deviation::FromPoints(found.largest))
+    })
 }

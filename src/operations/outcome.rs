@@ -111,15 +111,25 @@ impl Figure {
         Self::new(name, label, Value::Real(length), Quantity::Length)
     }
 
-    /// Report a plain number.
-    pub(super) fn number(name: &'static str, label: &'static str, number: f64) -> Self {
-        Self::new(name, label, Value::Real(number), Quantity::Number)
-    }
-
     /// List the numbers of items, counted from 0.
     pub(super) fn indices(name: &'static str, label: &'static str, indices: &[usize]) -> Self {
         let value = Value::Indices(indices.to_vec());
         Self::new(name, label, value, Quantity::Number)
+    }
+
+    /// Report rows of numbers under names.
+    pub(super) fn table(
+        name: &'static str,
+        label: &'static str,
+        columns: &'static [&'static str],
+        rows: Vec<Vec<f64>>,
+    ) -> Self {
+        Self::new(
+            name,
+            label,
+            Value::Table { columns, rows },
+            Quantity::Number,
+        )
     }
 
     /// Report an end of a first curve and one of a second.

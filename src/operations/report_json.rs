@@ -1,5 +1,7 @@
 //! A report as JSON: one schema for all operations.
 
+use std::collections::BTreeMap;
+
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::json;
 
@@ -41,6 +43,13 @@ impl Serialize for Report {
                 Value::Switch(on) => json!(on),
                 Value::List(numbers) => json!(numbers),
                 Value::Indices(indices) => json!(indices),
+                Value::Table { columns, rows } => {
+                    let row = |row: &Vec<f64>| {
+                        let cells = columns.iter().zip(row).map(|(name, it)| (*name, cell(*it)));
+                        cells.collect::<BTreeMap<_, _>>()
+                    };
+                    json!(rows.iter().map(row).collect::<Vec<_>>())
+                }
                 Value::Ends([first, second]) => {
                     json!({ "first": first.name(), "second": second.name() })
                 }
@@ -56,6 +65,14 @@ impl Serialize for Report {
         }
         map.serialize_entry("remarks", &self.remarks)?;
         map.end()
+    }
+}
+
+/// Write a number of a table, a whole one without a point.
+fn cell(number: f64) -> serde_json::Value {
+    match number.fract() == 0.0 && number.abs() < 1e15 {
+        true => json!(number as i64),
+        false => json!(number),
     }
 }
 

@@ -31,6 +31,14 @@ fn figure_line(figure: &Figure) -> String {
         Value::Switch(on) => if *on { "yes" } else { "no" }.to_owned(),
         Value::List(numbers) => joined(numbers.iter().map(|it| significant(*it, 6))),
         Value::Indices(indices) => joined(indices.iter().map(usize::to_string)),
+        Value::Table { columns, rows } => {
+            let line = |row: &Vec<f64>| {
+                let cells = columns.iter().zip(row);
+                let cells = cells.map(|(name, it)| format!("{name} {}", significant(*it, 4)));
+                format!("\n  {}", joined(cells))
+            };
+            rows.iter().map(line).collect()
+        }
         Value::Ends([first, second]) => {
             format!(
                 "{} of the first and {} of the second",

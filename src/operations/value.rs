@@ -19,6 +19,13 @@ pub enum Value {
     List(Vec<f64>),
     /// The numbers of some things, counted from 0; only figures have them.
     Indices(Vec<usize>),
+    /// Rows of numbers under names; only figures have them.
+    Table {
+        /// The names of the columns.
+        columns: &'static [&'static str],
+        /// The rows.
+        rows: Vec<Vec<f64>>,
+    },
     /// An end of a first curve and one of a second; only figures have them.
     Ends([End; 2]),
     /// A reference, or none.
@@ -46,6 +53,7 @@ impl Value {
                 )
             }
             Self::Indices(indices) => joined(indices.iter().map(usize::to_string).collect()),
+            Self::Table { rows, .. } => joined(rows.iter().map(|row| format!("{row:?}")).collect()),
             Self::Ends(ends) => joined(ends.iter().map(|end| end.name().to_owned()).collect()),
         }
     }

@@ -30,6 +30,7 @@ const ORDERED: [Layer; 2] = [
             "conversion",
             "features",
             "harmony",
+            "fitting",
             "fairing",
             "rebuilding",
             "approximation",

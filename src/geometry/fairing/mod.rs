@@ -16,7 +16,6 @@ pub mod harmonising;
 mod jet_weights;
 pub mod joint_correction;
 mod least_squares;
-mod monotone_runs;
 pub mod near_end;
 pub(super) mod near_points;
 mod objective;

@@ -7,12 +7,12 @@
 //! between them.
 
 use super::least_squares::LeastSquares;
-use super::monotone_runs::best_runs;
 use super::near_points::{NearPoints, Points};
 use super::slope_signs::SlopeSign;
 use super::unknowns::Unknowns;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::{Feature, Features};
+use crate::geometry::fitting::best_runs;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
@@ -73,10 +73,11 @@ pub(in crate::geometry) fn nearest_with_extrema(
     if !curvatures.iter().all(|curvature| curvature.is_finite()) {
         return Ok(None);
     }
-    for runs in best_runs(&curvatures, extrema) {
+    let even = vec![1.0; curvatures.len()];
+    for runs in best_runs(&curvatures, &even, extrema) {
         let mut signs = samples.clone();
-        for (sign, rises) in signs.iter_mut().zip(&runs.rises) {
-            sign.ask(*rises);
+        for (index, sign) in signs.iter_mut().enumerate() {
+            sign.ask(runs.rises(index));
         }
         let fit = PointFit {
             points,

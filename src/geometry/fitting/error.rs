@@ -43,6 +43,9 @@ pub enum FitError {
         /// The number of points.
         points: usize,
     },
+    /// The equations of the fit have no solution in doubles.
+    #[error("these points determine no curve: ask for fewer vertices or a lower degree")]
+    NotFound,
     /// The computation was ended early.
     #[error("the fit was cancelled")]
     Cancelled,

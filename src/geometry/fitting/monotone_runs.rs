@@ -4,13 +4,23 @@
 const ENOUGH: usize = 300;
 const ENOUGH_A_RUN: usize = 4;
 
-/// A division of a sequence into runs.
+/// A division of a sequence into runs that rise and fall by turns.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Runs {
-    /// For every number whether its run rises.
-    pub(super) rises: Vec<bool>,
-    /// The sum of the squares by which the sequence misses the nearest one that rises and falls so.
-    pub(super) missed: f64,
+pub(in crate::geometry) struct Runs {
+    /// Whether the first run rises.
+    pub(in crate::geometry) begins_rising: bool,
+    /// The first number of each later run.
+    pub(in crate::geometry) turns: Vec<usize>,
+    /// The weighed sum of the squares by which the sequence misses the nearest one that rises and falls so.
+    missed: f64,
+}
+
+impl Runs {
+    /// Whether the run of a number rises.
+    pub(in crate::geometry) fn rises(&self, index: usize) -> bool {
+        let run = self.turns.partition_point(|turn| *turn <= index);
+        self.begins_rising == run.is_multiple_of(2)
+    }
 }
 
 /// Find the two best divisions into runs that rise and fall by turns, with so many turns between
@@ -18,17 +28,17 @@ pub(super) struct Runs {
 ///
 /// What the nearest monotone sequence of a run misses is found by pooling neighbours that are out of
 /// order (Ayer and others, 1955), the best ends of runs by dynamic programming.
-pub(super) fn best_runs(values: &[f64], turns: usize) -> [Runs; 2] {
+pub(in crate::geometry) fn best_runs(values: &[f64], weights: &[f64], turns: usize) -> [Runs; 2] {
     let enough = ENOUGH.max(ENOUGH_A_RUN * (turns + 1));
     let step = values.len().div_ceil(enough).max(1);
-    let thinned: Vec<f64> = values.iter().step_by(step).copied().collect();
+    let weighed = values.iter().copied().zip(weights.iter().copied());
+    let thinned: Vec<(f64, f64)> = weighed.step_by(step).collect();
     let missed = [true, false].map(|rises| missed_by_runs(&thinned, rises));
     let mut found = [true, false].map(|begins_rising| {
         let (ends, missed) = best_ends(&missed, thinned.len(), turns, begins_rising);
-        let run_of = |index: usize| ends.partition_point(|end| *end <= index / step);
-        let rises = (0..values.len()).map(|index| begins_rising == (run_of(index) % 2 == 0));
         Runs {
-            rises: rises.collect(),
+            begins_rising,
+            turns: ends.into_iter().map(|end| end * step).collect(),
             missed,
         }
     });
@@ -38,16 +48,16 @@ pub(super) fn best_runs(values: &[f64], turns: usize) -> [Runs; 2] {
 
 /// For every first number of a run, and every number of its members, what the nearest rising (or
 /// falling) sequence misses.
-fn missed_by_runs(values: &[f64], rises: bool) -> Vec<Vec<f64>> {
+fn missed_by_runs(values: &[(f64, f64)], rises: bool) -> Vec<Vec<f64>> {
     let sign = if rises { 1.0 } else { -1.0 };
     let from = |first: usize| {
-        // Pools of neighbours: their number, sum and sum of squares.
+        // Pools of neighbours: their weight, weighed sum and weighed sum of squares.
         let mut pools: Vec<[f64; 3]> = Vec::new();
         let spread = |pool: &[f64; 3]| (pool[2] - pool[1] * pool[1] / pool[0]).max(0.0);
         let mut missed = 0.0;
-        let grown = values[first..].iter().map(|value| {
+        let grown = values[first..].iter().map(|(value, weight)| {
             let value = sign * value;
-            let mut last = [1.0, value, value * value];
+            let mut last = [*weight, weight * value, weight * value * value];
             while let Some(before) = pools.last().copied() {
                 if before[1] * last[0] < last[1] * before[0] {
                     break;
@@ -114,22 +124,22 @@ mod tests {
     fn runs_end_at_the_largest_turns() {
         // A ripple of 0.2 on a way up to 5 and down again.
         let values = [0.0, 1.0, 0.8, 2.0, 3.0, 5.0, 4.0, 3.0, 3.2, 1.0, 0.0];
-        let [up, down] = best_runs(&values, 1);
-        let rising = up.rises.iter().filter(|rises| **rises).count();
-        assert!(up.rises[0] && (5..=6).contains(&rising), "{up:?}");
+        let even = [1.0; 11];
+        let [up, down] = best_runs(&values, &even, 1);
+        assert!(up.begins_rising && (5..=6).contains(&up.turns[0]), "{up:?}");
         // Each ripple pools two numbers that are 0.2 apart.
         assert!((up.missed - 2.0 * 2.0 * 0.1 * 0.1).abs() < 1e-12, "{up:?}");
-        assert!(!down.rises[0] && down.missed > up.missed);
-        let [all, _] = best_runs(&values, 5);
+        assert!(!down.begins_rising && down.missed > up.missed);
+        let [all, _] = best_runs(&values, &even, 5);
         assert!(all.missed < 1e-12, "{all:?}");
     }
 
     #[test]
     fn without_turns_all_rises_or_all_falls() {
         let values = [3.0, 2.0, 2.5, 1.0];
-        let [falls, rises] = best_runs(&values, 0);
-        assert!(falls.rises.iter().all(|rises| !rises));
-        assert!(rises.rises.iter().all(|rises| *rises));
+        let [falls, rises] = best_runs(&values, &[1.0; 4], 0);
+        assert!((0..4).all(|index| !falls.rises(index)));
+        assert!((0..4).all(|index| rises.rises(index)));
         assert!(
             (falls.missed - 2.0 * 0.25 * 0.25).abs() < 1e-12,
             "{falls:?}"

@@ -4,7 +4,6 @@ use std::cmp::{Ordering, Reverse};
 
 use glam::DVec3;
 
-use super::error::FitError;
 use super::outliers::leave_out_outliers;
 use super::point_list::PointList;
 use super::smoothing::{Smoothed, Smoothing};
@@ -13,6 +12,7 @@ use crate::geometry::control_polygon::check_size;
 use crate::geometry::fairing::near_points::{NearPoints, Points};
 use crate::geometry::fairing::point_fit::{extrema_of, nearest_with_extrema};
 use crate::geometry::features::Features;
+use crate::geometry::fitting::FitError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::error::FitError;
 use super::point_list::{PointList, median};
 use super::smoothing::Smoothing;
+use crate::geometry::fitting::FitError;
 use crate::geometry::progress::Progress;
 
 /// Points a vertex while searching for outliers: such a curve is not stiff.

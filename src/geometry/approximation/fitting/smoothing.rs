@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
-use super::error::FitError;
 use super::point_list::PointList;
 use crate::geometry::banded::{BandedQr, BandedRow, difference_stencil};
 use crate::geometry::basis::uniform_basis_derivative;
 use crate::geometry::fairing::near_points::{FAIR_ORDER, NearPoints};
+use crate::geometry::fitting::FitError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 

@@ -1,7 +1,7 @@
 //! Number of vertices that points need.
 
-use super::error::FitError;
 use super::smoothing::Smoothing;
+use crate::geometry::fitting::FitError;
 
 /// Errors below this share of the points' size are rounding.
 pub(super) const ROUNDING: f64 = 1e-12;

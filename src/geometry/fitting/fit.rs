@@ -1,0 +1,471 @@
+//! Fits of planar points.
+
+use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
+
+use glam::{DVec2, DVec3};
+
+use super::error::FitError;
+use super::levels::{Level, Task, size};
+use super::neighbours::{noise, outliers, with_middles};
+use super::problem::{Data, EndCondition, EndValue};
+use super::slope_coefficients::SlopeTables;
+use crate::geometry::control_polygon::check_size;
+use crate::geometry::end::End;
+use crate::geometry::features::{Feature, Features};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::nearest::refined_parameter;
+use crate::geometry::progress::Progress;
+
+/// Without a tolerance, the one that counts: a share of the size, or so many times the noise.
+const NEAR: f64 = 5e-4;
+const NOISE: f64 = 3.0;
+
+/// The most vertices without a wish, without and with a tolerance, and the points that each of them stands for at
+/// least.
+const MOST_VERTICES: [usize; 2] = [40, 80];
+const POINTS_A_VERTEX: usize = 2;
+
+/// The most extrema that are tried.
+const MOST_EXTREMA: usize = 40;
+
+/// Levels of fewer extrema that begin those of more.
+const RELEASED: usize = 3;
+
+/// The search for the fewest extrema ends where so many numbers in a row come no nearer than this share.
+const STALE: usize = 4;
+const GAIN: f64 = 0.9;
+
+/// The number of extrema that is wished.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Extrema {
+    /// The fewest with which the tolerance is kept.
+    #[default]
+    Fewest,
+    /// Just so many.
+    Exactly(usize),
+}
+
+/// What is asked of a fit in the plane.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PlaneFit {
+    /// The degree.
+    pub degree: usize,
+    /// Whether the curve is periodic; the last point is then followed by the first one.
+    pub periodic: bool,
+    /// The number of vertices; `None` for as many as it takes.
+    pub count: Option<usize>,
+    /// The most vertices; `None` for half the number of points, at most 40, or 80 with a tolerance.
+    pub most: Option<usize>,
+    /// The number of curvature extrema.
+    pub extrema: Extrema,
+    /// The number of inflections; `None` for any.
+    pub inflections: Option<usize>,
+    /// The largest distance of points that count; `None` for 5e-4 of the size, or three times the noise.
+    pub tolerance: Option<f64>,
+    /// Whether the curve begins just at the first point, and ends just at the last one.
+    pub exact_ends: [bool; 2],
+    /// Unit tangents at the ends.
+    pub directions: [Option<DVec2>; 2],
+    /// Signed curvatures at the ends.
+    pub curvatures: [Option<f64>; 2],
+    /// The points that do not count, from 0; `None` for those that stand out.
+    pub outliers: Option<Vec<usize>>,
+}
+
+/// How near a number of extrema comes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TradeOff {
+    /// The number of curvature extrema.
+    pub extrema: usize,
+    /// The number of vertices.
+    pub vertices: usize,
+    /// The root of the mean squared distance of the points that count.
+    pub rms: f64,
+    /// The largest of these distances.
+    pub largest: f64,
+}
+
+/// A fit with its figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fitted {
+    /// The float polygon.
+    pub polygon: FloatPolygon,
+    /// Whether extrema, inflections and ends are those asked for, proved.
+    pub holds: bool,
+    /// The number of curvature extrema, proved.
+    pub extrema: usize,
+    /// The number of inflections.
+    pub inflections: usize,
+    /// The root of the mean squared distance of the points that count.
+    pub rms: f64,
+    /// The largest distance of the points that count.
+    pub deviation: f64,
+    /// The largest distance of all points.
+    pub largest: f64,
+    /// The points that do not count, with their distances.
+    pub outliers: Vec<(usize, f64)>,
+    /// The estimated standard deviation of the points' noise.
+    pub noise: f64,
+    /// The tolerance that counted.
+    pub tolerance: f64,
+    /// What each number of extrema that was tried reaches.
+    pub trade_off: Vec<TradeOff>,
+    /// The fewest extrema found that keep the tolerance, if the number asked for does not.
+    pub least_extrema: Option<usize>,
+    /// The points that repeat the one before, from 0; they count once.
+    pub repeated: Vec<usize>,
+    /// Whether the time was up before the search had ended.
+    pub stopped: bool,
+}
+
+/// Fit a curve with a wished number of curvature extrema, or the fewest, to points of the plane that follow each
+/// other along it.
+///
+/// Minimises the distances of the points while the curvature rises and falls as often as asked, proved. Without
+/// a number of vertices ever more are tried until that no longer helps.
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit_plane(
+    points: &[DVec2],
+    asked: &PlaneFit,
+    progress: &Progress,
+) -> Result<Fitted, FitError> {
+    let prepared = Prepared::new(points, asked)?;
+    let fit = Fit {
+        prepared: &prepared,
+        asked,
+        progress,
+        tables: SlopeTables::new(asked.degree),
+    };
+    let (level, trade_off, least_extrema) = fit.found();
+    if progress.is_cancelled() && !progress.is_late() {
+        return Err(FitError::Cancelled);
+    }
+    let level = level.or_else(|| fit.task(0, None).smoothed());
+    let level = level.ok_or(FitError::NotFound)?;
+    let fitted = fit.finished(points, &level)?;
+    Ok(Fitted {
+        trade_off,
+        least_extrema,
+        ..fitted
+    })
+}
+
+/// Points as they are fitted: those that count, about the origin, about 1 large.
+struct Prepared {
+    /// With light ones between them.
+    points: Vec<DVec2>,
+    weights: Vec<f64>,
+    /// How many of them count.
+    counting: usize,
+    middle: DVec2,
+    unit: f64,
+    noise: f64,
+    tolerance: f64,
+    outliers: Vec<usize>,
+    repeated: Vec<usize>,
+    ends: Vec<EndCondition>,
+}
+
+impl Prepared {
+    fn new(points: &[DVec2], asked: &PlaneFit) -> Result<Self, FitError> {
+        check_size(asked.degree, asked.count.unwrap_or(asked.degree + 1), false)?;
+        let mut repeated: Vec<usize> = (1..points.len())
+            .filter(|index| points[*index] == points[index - 1])
+            .collect();
+        let closes = points.len() > 1 && points.first() == points.last();
+        if asked.periodic && closes && repeated.last() != Some(&(points.len() - 1)) {
+            repeated.push(points.len() - 1);
+        }
+        let is_new = |index: &usize| repeated.binary_search(index).is_err();
+        let numbers: Vec<usize> = (0..points.len()).filter(is_new).collect();
+        let (degree, found) = (asked.degree, numbers.len());
+        let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+        let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let middle = 0.5 * low + 0.5 * high;
+        let unit = 2.0_f64.powi((high - low).max_element().log2().ceil() as i32);
+        if found < degree + 1 || !(unit > 0.0 && unit.is_finite()) {
+            return Err(FitError::TooFewPoints { found, degree });
+        }
+        if let Some(count) = asked.count.filter(|count| *count > found) {
+            let points = found;
+            return Err(FitError::TooManyVertices { count, points });
+        }
+        let scaled: Vec<DVec2> = numbers
+            .iter()
+            .map(|index| (points[*index] - middle) / unit)
+            .collect();
+        let noise = noise(&scaled);
+        let left_out: Vec<usize> = match &asked.outliers {
+            None => outliers(&scaled),
+            Some(given) => {
+                let is_given = |index: &usize| given.contains(&numbers[*index]);
+                (0..scaled.len()).filter(is_given).collect()
+            }
+        };
+        let counts = |index: &usize| left_out.binary_search(index).is_err();
+        let counting = (0..scaled.len()).filter(counts);
+        let counting: Vec<DVec2> = counting.map(|index| scaled[index]).collect();
+        let found = counting.len();
+        if found < degree + 1 {
+            return Err(FitError::TooFewPoints { found, degree });
+        }
+        let tolerance = match asked.tolerance {
+            Some(tolerance) => tolerance / unit,
+            None => (NEAR * size(&counting)).max(NOISE * noise),
+        };
+        let ends = ends(&counting, asked, unit);
+        let (all, weights) = match asked.periodic {
+            true => (counting.clone(), vec![1.0; found]),
+            false => with_middles(&counting),
+        };
+        Ok(Self {
+            points: all,
+            weights,
+            counting: found,
+            middle,
+            unit,
+            noise,
+            tolerance,
+            outliers: left_out.into_iter().map(|index| numbers[index]).collect(),
+            repeated,
+            ends,
+        })
+    }
+}
+
+/// The conditions at the ends of an open curve.
+fn ends(points: &[DVec2], asked: &PlaneFit, unit: f64) -> Vec<EndCondition> {
+    let mut conditions = Vec::new();
+    if asked.periodic {
+        return conditions;
+    }
+    let outer = [points.first(), points.last()];
+    for (index, end) in [End::Start, End::Finish].into_iter().enumerate() {
+        let point = outer[index].filter(|_| asked.exact_ends[index]);
+        let values = [
+            point.map(|point| EndValue::Point(*point)),
+            asked.directions[index].map(EndValue::Direction),
+            asked.curvatures[index].map(|curvature| EndValue::Curvature(curvature * unit)),
+        ];
+        let values = values.into_iter().flatten();
+        conditions.extend(values.map(|value| EndCondition { end, value }));
+    }
+    conditions
+}
+
+struct Fit<'a> {
+    prepared: &'a Prepared,
+    asked: &'a PlaneFit,
+    progress: &'a Progress,
+    tables: SlopeTables,
+}
+
+impl Fit<'_> {
+    fn task(&self, extrema: usize, tolerance: Option<f64>) -> Task<'_> {
+        let prepared = self.prepared;
+        let most = MOST_VERTICES[usize::from(tolerance.is_some())];
+        let half = (prepared.counting / POINTS_A_VERTEX).min(most);
+        let most = self.asked.most.unwrap_or(half);
+        Task {
+            data: Data {
+                points: &prepared.points,
+                weights: &prepared.weights,
+                ends: &prepared.ends,
+            },
+            degree: self.asked.degree,
+            periodic: self.asked.periodic,
+            extrema,
+            inflections: self.asked.inflections,
+            count: self.asked.count,
+            most: most.max(self.asked.degree + 1),
+            tolerance,
+            tables: &self.tables,
+            progress: self.progress,
+        }
+    }
+
+    /// The best fit, what each number of extrema reaches, and the fewest that keep the tolerance where the number
+    /// asked for does not.
+    fn found(&self) -> (Option<Level>, Vec<TradeOff>, Option<usize>) {
+        let Extrema::Exactly(extrema) = self.asked.extrema else {
+            let (level, trade_off) = self.fewest();
+            return (level, trade_off, None);
+        };
+        let (level, trade_off) = self.exactly(extrema);
+        let tolerance = self.prepared.tolerance;
+        let is_near = level
+            .as_ref()
+            .is_some_and(|level| level.largest <= tolerance);
+        if self.asked.tolerance.is_none() || is_near {
+            return (level, trade_off, None);
+        }
+        let (fair, all) = self.fewest();
+        let fair = fair.filter(|fair| fair.largest <= tolerance);
+        let least = fair.map(|fair| fair.start.slopes.cuts.len());
+        (level, all, least)
+    }
+
+    /// The nearest fit with just so many extrema.
+    fn exactly(&self, extrema: usize) -> (Option<Level>, Vec<TradeOff>) {
+        let levels = self.task(
+            extrema,
+            self.asked.tolerance.map(|_| self.prepared.tolerance),
+        );
+        let levels = levels.levels(&[]);
+        let trade_off = self.trade_off(extrema, &levels);
+        (
+            self.chosen(levels, self.asked.tolerance.is_some()),
+            trade_off.into_iter().collect(),
+        )
+    }
+
+    /// The fit with the fewest extrema that keeps the tolerance, or else the nearest.
+    fn fewest(&self) -> (Option<Level>, Vec<TradeOff>) {
+        let tolerance = self.prepared.tolerance;
+        let mut known: BTreeMap<usize, Vec<Level>> = BTreeMap::new();
+        let mut trade_off = Vec::new();
+        let mut best: Option<Level> = None;
+        let mut stale = 0;
+        for extrema in self.numbers() {
+            let near = known.range(extrema.saturating_sub(2)..extrema);
+            let last = near.flat_map(|(_, levels)| levels.iter().rev().take(RELEASED));
+            let fewer: Vec<Level> = last.cloned().collect();
+            let levels = self.task(extrema, Some(tolerance)).levels(&fewer);
+            trade_off.extend(self.trade_off(extrema, &levels));
+            known.insert(extrema, levels.clone());
+            let found = self.chosen(levels, true);
+            let is_near = found
+                .as_ref()
+                .is_some_and(|found| found.largest <= tolerance);
+            let known = best.as_ref().map_or(f64::INFINITY, |best| best.largest);
+            let gains = found
+                .as_ref()
+                .is_some_and(|found| found.largest < GAIN * known);
+            stale = if gains { 0 } else { stale + 1 };
+            best = match (best, found) {
+                (Some(best), Some(found)) if found.largest >= best.largest => Some(best),
+                (best, found) => found.or(best),
+            };
+            if is_near || stale >= STALE || self.progress.is_cancelled() {
+                break;
+            }
+            self.progress.set_done((extrema as f64 / 10.0).min(0.9));
+        }
+        (best, trade_off)
+    }
+
+    /// The numbers of extrema that are tried.
+    fn numbers(&self) -> impl Iterator<Item = usize> {
+        let step = if self.asked.periodic { 2 } else { 1 };
+        let numbers: RangeInclusive<usize> = 0..=MOST_EXTREMA.min(self.prepared.counting / 4);
+        numbers.step_by(step)
+    }
+
+    fn trade_off(&self, extrema: usize, levels: &[Level]) -> Option<TradeOff> {
+        let nearest = levels.last()?;
+        let unit = self.prepared.unit;
+        let largest = levels.iter().map(|level| level.largest);
+        Some(TradeOff {
+            extrema,
+            vertices: nearest.splines.count,
+            rms: unit * nearest.rms,
+            largest: unit * largest.fold(f64::INFINITY, f64::min),
+        })
+    }
+
+    /// Of ever nearer levels the last one if there is a tolerance, or else the one that explains the points best
+    /// for its size (generalised cross validation: Craven and Wahba, 1979).
+    fn chosen(&self, levels: Vec<Level>, is_for_tolerance: bool) -> Option<Level> {
+        let tolerance = self.prepared.tolerance;
+        let asked = self.asked.count;
+        let levels = levels.into_iter();
+        let levels = levels.filter(|it| asked.is_none_or(|count| it.splines.count == count));
+        let levels: Vec<Level> = levels.collect();
+        let score = |level: &Level| {
+            let share = level.splines.count as f64 / self.prepared.counting as f64;
+            level.rms.powi(2) / (1.0 - share.min(0.9)).powi(2)
+        };
+        let kept = |level: &Level| is_for_tolerance && level.largest <= tolerance;
+        if let Some(level) = levels.iter().find(|level| kept(level)) {
+            return Some(level.clone());
+        }
+        match is_for_tolerance {
+            true => levels
+                .into_iter()
+                .min_by(|a, b| a.largest.total_cmp(&b.largest)),
+            false => levels
+                .into_iter()
+                .min_by(|a, b| score(a).total_cmp(&score(b))),
+        }
+    }
+
+    /// Take a level back to where the points are, and measure it there.
+    fn finished(&self, points: &[DVec2], level: &Level) -> Result<Fitted, FitError> {
+        let prepared = self.prepared;
+        let vertices = level.start.curve.vertices.iter();
+        let vertices =
+            vertices.map(|vertex| (prepared.unit * *vertex + prepared.middle).extend(0.0));
+        let vertices: Vec<DVec3> = vertices.collect();
+        let polygon = FloatPolygon::new(self.asked.degree, vertices, None, self.asked.periodic)?;
+        let features = Features::proved(&polygon, |_| true).ok_or(FitError::Cancelled)?;
+        let distances = self.distances(points, level, &polygon);
+        let counts = |index: &usize| prepared.outliers.binary_search(index).is_err();
+        let kept: Vec<f64> = (0..points.len())
+            .filter(counts)
+            .map(|it| distances[it])
+            .collect();
+        let square: f64 = kept.iter().map(|distance| distance * distance).sum();
+        let most = |distances: &[f64]| distances.iter().fold(0.0_f64, |most, it| most.max(*it));
+        let outliers = prepared.outliers.iter();
+        Ok(Fitted {
+            holds: level.holds,
+            extrema: features.count(Feature::CurvatureExtremum),
+            inflections: features.count(Feature::Inflection),
+            rms: (square / kept.len().max(1) as f64).sqrt(),
+            deviation: most(&kept),
+            largest: most(&distances),
+            outliers: outliers.map(|index| (*index, distances[*index])).collect(),
+            noise: prepared.unit * prepared.noise,
+            tolerance: prepared.unit * prepared.tolerance,
+            trade_off: Vec::new(),
+            least_extrema: None,
+            repeated: prepared.repeated.clone(),
+            stopped: self.progress.is_late(),
+            polygon,
+        })
+    }
+
+    /// The distance of each point from the curve, looked for near the parameters of its neighbours.
+    fn distances(&self, points: &[DVec2], level: &Level, polygon: &FloatPolygon) -> Vec<f64> {
+        let prepared = self.prepared;
+        let places = &level.start.curve.places;
+        let end = polygon.segments() as f64;
+        let mut known = 0;
+        let near = |point: DVec2| {
+            let scaled = (point - prepared.middle) / prepared.unit;
+            let exact = prepared.points.iter().enumerate().skip(known);
+            let mut exact = exact.filter(|(_, it)| **it == scaled);
+            if let Some((index, _)) = exact.next() {
+                known = index;
+            }
+            places.get(known).copied().unwrap_or_default()
+        };
+        let starts: Vec<f64> = points.iter().copied().map(near).collect();
+        let distance = |(point, start): (&DVec2, f64)| {
+            let point = point.extend(0.0);
+            let nearest = |from: f64| {
+                let bracket = match polygon.is_periodic() {
+                    true => [from - 1.0, from + 1.0],
+                    false => [(from - 1.0).max(0.0), (from + 1.0).min(end)],
+                };
+                let u = refined_parameter(point, from, bracket, |u| polygon.jet(u));
+                polygon.point(u).distance(point)
+            };
+            nearest(start).min(polygon.point(start).distance(point))
+        };
+        points.iter().zip(starts).map(distance).collect()
+    }
+}

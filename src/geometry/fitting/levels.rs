@@ -1,0 +1,474 @@
+//! Fits with a wished number of extrema, from few vertices to many.
+
+use glam::{DVec2, DVec3};
+
+use super::descent::descend;
+use super::first_places::{closed_shares, open_shares};
+use super::problem::{Data, Problem, Start};
+use super::sign_runs::SignRuns;
+use super::slope_coefficients::SlopeTables;
+use super::splines::Splines;
+use crate::geometry::features::{Feature, Features};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+
+/// The factor between the numbers of segments of two levels.
+const GROWTH: f64 = 1.35;
+
+/// Steps of a level that begins at the one before, of its second try, and of a fresh start.
+const WARM_STEPS: usize = 20;
+const SECOND_STEPS: usize = 40;
+const FRESH_STEPS: usize = 30;
+
+/// The share of turning in the first parameters and the weight of fairness, of two fresh starts.
+const STARTS: [(f64, f64); 2] = [(0.5, 1e-4), (0.3, 1e-2)];
+
+/// Rounds of least squares of a fresh start.
+const ROUNDS: usize = 6;
+
+/// Levels that begin afresh too, from which level on only one of both beginning signs, or only the first start.
+const FRESH: [usize; 3] = [0, 2, 4];
+const ONE_SIGN: usize = 3;
+const ONE_START: usize = 5;
+
+/// An error above this share of the one before is no gain; so many of them in a row end the search.
+const GAIN: f64 = 0.97;
+const STALE: usize = 3;
+
+/// An error below this share of the size is rounding.
+const EXACT: f64 = 1e-9;
+
+/// A tolerance that is missed by less than this factor is tried for with weights that grow where points are far.
+const CLOSE: f64 = 2.5;
+const WEIGHINGS: usize = 8;
+const WEIGHED_STEPS: usize = 10;
+
+/// From this level on, a tolerance that is missed by more than this factor with less than that gain is given up.
+const FAR_LEVEL: usize = 3;
+const FAR: f64 = 8.0;
+const FAR_GAIN: f64 = 0.85;
+
+/// An arc between two points that is longer than so many times the chord and the offsets is a loop.
+const LOOP: f64 = 2.0;
+
+/// The chords by which the arc between two points is measured.
+const ARC_PARTS: usize = 8;
+
+/// Multipliers below this share of the largest do not count as pressing where a run may be released, and runs of
+/// them with a gap of less than so many members are one.
+const PRESSING: f64 = 1e-4;
+const GAP: usize = 6;
+
+/// The members at an end that make a run one of the end, and the most releases that are tried.
+const END: usize = 6;
+const RELEASES: usize = 3;
+
+/// What is fitted, and with how many extrema.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub(super) data: Data<'a>,
+    pub(super) degree: usize,
+    pub(super) periodic: bool,
+    pub(super) extrema: usize,
+    pub(super) inflections: Option<usize>,
+    /// The number of vertices; `None` for as many as it takes.
+    pub(super) count: Option<usize>,
+    /// The most vertices.
+    pub(super) most: usize,
+    /// The largest distance of a point.
+    pub(super) tolerance: Option<f64>,
+    pub(super) tables: &'a SlopeTables,
+    pub(super) progress: &'a Progress,
+}
+
+/// A fit with one number of vertices.
+#[derive(Clone, Debug)]
+pub(super) struct Level {
+    pub(super) splines: Splines,
+    pub(super) start: Start,
+    /// Whether the curve holds all that is asked for, proved.
+    pub(super) holds: bool,
+    pub(super) rms: f64,
+    pub(super) largest: f64,
+    press: Vec<f64>,
+}
+
+impl Level {
+    /// The float polygon.
+    pub(super) fn polygon(&self) -> Option<FloatPolygon> {
+        let vertices = self.start.curve.vertices.iter();
+        let vertices = vertices
+            .map(|vertex| vertex.extend(0.0))
+            .collect::<Vec<DVec3>>();
+        FloatPolygon::new(self.splines.degree, vertices, None, self.splines.periodic).ok()
+    }
+
+    /// The better of two: that which holds, then the nearer one.
+    fn or(self, other: Option<Self>) -> Self {
+        match other {
+            Some(other) if (other.holds, -other.rms) > (self.holds, -self.rms) => other,
+            _ => self,
+        }
+    }
+}
+
+impl<'a> Task<'a> {
+    /// The least number of vertices that is tried.
+    fn least(&self) -> usize {
+        let degree = self.degree;
+        if self.periodic {
+            return (degree + 3).max(2 * self.extrema + 4);
+        }
+        let points = self.data.points.len();
+        (degree + 4)
+            .max(self.extrema + 6)
+            .min((points / 2).max(degree + 3))
+    }
+
+    /// Find fits with ever more vertices, each nearer than the one before. `fewer` are fits with fewer extrema,
+    /// which begin others where one of their runs of conditions gets the other sign.
+    ///
+    /// Each level begins at the best one so far, resampled; some of the first ones, and those that fail, at the
+    /// patterns of smoothed curves too. Returns the levels that hold, the nearest last.
+    pub(super) fn levels(&self, fewer: &[Level]) -> Vec<Level> {
+        let mut levels: Vec<Level> = Vec::new();
+        let least = self
+            .count
+            .map_or(self.least(), |count| self.least().min(count));
+        let most = self.count.unwrap_or(self.most.max(least));
+        let size = size(self.data.points);
+        let (mut count, mut stale, mut level) = (least, 0, 0);
+        loop {
+            let found = self.level(count, level, levels.last(), fewer, count == most);
+            if self.progress.is_cancelled() {
+                break;
+            }
+            level += 1;
+            let before = levels.last().map(|it| it.rms);
+            let found = found.filter(|found| found.holds);
+            let mut gain = 1.0;
+            match found {
+                Some(found) if before.is_none_or(|before| found.rms < before) => {
+                    gain = before.map_or(0.0, |before| found.rms / before);
+                    stale = if gain > GAIN { stale + 1 } else { 0 };
+                    levels.push(found);
+                }
+                Some(found) if self.count == Some(count) => levels.push(found),
+                _ => stale += usize::from(before.is_some()),
+            }
+            if let (Some(best), Some(tolerance)) = (levels.last(), self.tolerance) {
+                let is_close = best.largest > tolerance && best.largest < CLOSE * tolerance;
+                if is_close && (count >= most || stale >= 1) {
+                    let weighed = self.weighed(best, tolerance);
+                    if weighed.largest <= tolerance {
+                        levels.push(weighed);
+                        break;
+                    }
+                }
+                if best.largest <= tolerance && self.count.is_none() {
+                    break;
+                }
+            }
+            if levels.last().is_some_and(|best| best.rms < EXACT * size) && self.count.is_none() {
+                break;
+            }
+            let is_far = self.tolerance.is_some_and(|tolerance| {
+                let far = |best: &Level| best.largest > FAR * tolerance && gain > FAR_GAIN;
+                level >= FAR_LEVEL && levels.last().is_none_or(far)
+            });
+            if count >= most || is_far || (stale >= STALE && self.count.is_none()) {
+                break;
+            }
+            count = self.next_count(count).min(most);
+        }
+        levels
+    }
+
+    /// The fit with any number of extrema: least squares with a little fairness.
+    pub(super) fn smoothed(&self) -> Option<Level> {
+        let problem = self.problem(self.count.unwrap_or(self.most));
+        let curves = STARTS.iter().filter_map(|(bend, fair)| {
+            let curve = problem.smoothed(self.first_places(&problem, *bend), *fair, ROUNDS)?;
+            let [rms, largest] = problem.errors(&curve);
+            let slopes = SignRuns {
+                begins_positive: true,
+                cuts: Vec::new(),
+            };
+            Some(Level {
+                splines: problem.splines,
+                start: Start {
+                    curve,
+                    slopes,
+                    bends: None,
+                },
+                holds: false,
+                rms,
+                largest,
+                press: Vec::new(),
+            })
+        });
+        curves.min_by(|a, b| a.rms.total_cmp(&b.rms))
+    }
+
+    fn next_count(&self, count: usize) -> usize {
+        let tail = if self.periodic { 0 } else { self.degree };
+        let more = (GROWTH * (count - tail) as f64).round() as usize + tail;
+        more.max(count + 1)
+    }
+
+    fn problem(&self, count: usize) -> Problem<'a> {
+        let splines = Splines {
+            degree: self.degree,
+            count,
+            periodic: self.periodic,
+        };
+        Problem::new(self.data, splines, self.tables)
+    }
+
+    /// The best fit found with one number of vertices.
+    fn level(
+        &self,
+        count: usize,
+        level: usize,
+        best: Option<&Level>,
+        fewer: &[Level],
+        is_last: bool,
+    ) -> Option<Level> {
+        let problem = self.problem(count);
+        let mut found: Option<Level> = None;
+        let better = |found: &mut Option<Level>, it: Level| {
+            *found = Some(it.or(found.take()));
+        };
+        if let Some(best) = best {
+            let known = self.problem(best.splines.count);
+            if let Some(start) = problem.resampled(&known, &best.start) {
+                let first = self.attempt(&problem, start, WARM_STEPS);
+                if !first.holds || first.rms > best.rms {
+                    let start = first.start.clone();
+                    better(&mut found, self.attempt(&problem, start, SECOND_STEPS));
+                }
+                better(&mut found, first);
+            }
+        }
+        if FRESH.contains(&level) || !found.as_ref().is_some_and(|found| found.holds) {
+            let starts = if level < ONE_START {
+                &STARTS[..]
+            } else {
+                &STARTS[..1]
+            };
+            for (bend, fair) in starts {
+                let signs = if level < ONE_SIGN { 2 } else { 1 };
+                for start in self.fresh(&problem, *bend, *fair).into_iter().take(signs) {
+                    if self.progress.is_cancelled() {
+                        return found;
+                    }
+                    better(&mut found, self.attempt(&problem, start, FRESH_STEPS));
+                }
+            }
+        }
+        for less in fewer {
+            let near = less.splines.count as f64 > 0.6 * count as f64 || is_last;
+            if less.splines.count <= count && near {
+                for released in self.released(&problem, less) {
+                    better(&mut found, self.attempt(&problem, released, FRESH_STEPS));
+                }
+            }
+        }
+        found
+    }
+
+    /// The first parameters of the points.
+    fn first_places(&self, problem: &Problem, bend: f64) -> Vec<f64> {
+        let points = self.data.points;
+        let shares = match self.periodic {
+            true => closed_shares(points, bend),
+            false => open_shares(points, bend),
+        };
+        let end = problem.splines.end();
+        shares.into_iter().map(|share| share * end).collect()
+    }
+
+    /// Starts at the patterns of a smoothed curve.
+    fn fresh(&self, problem: &Problem, bend: f64, fair: f64) -> Vec<Start> {
+        let places = self.first_places(problem, bend);
+        let Some(curve) = problem.smoothed(places, fair, ROUNDS) else {
+            return Vec::new();
+        };
+        let bends = self.inflections;
+        let bends = bends.map(|inflections| problem.bend_runs(&curve.vertices, inflections));
+        let runs = problem.slope_runs(&curve.vertices, self.extrema);
+        let start = |slopes| Start {
+            curve: curve.clone(),
+            slopes,
+            bends: bends.clone(),
+        };
+        runs.into_iter().map(start).collect()
+    }
+
+    fn attempt(&self, problem: &Problem, start: Start, steps: usize) -> Level {
+        self.weighed_attempt(problem, start, self.data.weights, steps)
+    }
+
+    /// Step down from a start, and prove and measure what is found.
+    fn weighed_attempt(
+        &self,
+        problem: &Problem,
+        start: Start,
+        weights: &[f64],
+        steps: usize,
+    ) -> Level {
+        let descended = descend(problem, start, weights, steps, self.progress);
+        let [rms, largest] = problem.errors(&descended.start.curve);
+        let mut level = Level {
+            splines: problem.splines,
+            holds: descended.holds && !loops(problem, &descended.start),
+            start: descended.start,
+            rms,
+            largest,
+            press: descended.press,
+        };
+        level.holds = level.holds && self.is_proved(&level);
+        level
+    }
+
+    /// Whether the curve has just the features asked for.
+    fn is_proved(&self, level: &Level) -> bool {
+        let features = level.polygon();
+        let features = features.map(|it| Features::proved(&it, |_| !self.progress.is_cancelled()));
+        features.flatten().is_some_and(|features| {
+            let inflections = features.count(Feature::Inflection);
+            features.undecided.is_empty()
+                && features.count(Feature::CurvatureExtremum) == self.extrema
+                && self.inflections.is_none_or(|asked| asked == inflections)
+        })
+    }
+
+    /// Make the largest distance smaller by weights that grow where distances are large (Lawson, 1961).
+    fn weighed(&self, level: &Level, tolerance: f64) -> Level {
+        let problem = self.problem(level.splines.count);
+        let mut weights = vec![1.0; self.data.points.len()];
+        let mut best = level.clone();
+        let mut now = level.clone();
+        for _ in 0..WEIGHINGS {
+            let offsets = problem.offsets(&now.start.curve);
+            let distances: Vec<f64> = offsets.iter().map(|offset| offset.length()).collect();
+            let mut sorted = distances.clone();
+            sorted.sort_by(f64::total_cmp);
+            let median = sorted[sorted.len() / 2].max(f64::MIN_POSITIVE);
+            for (weight, distance) in weights.iter_mut().zip(&distances) {
+                *weight *= (distance / median).clamp(0.2, 5.0).powf(0.8);
+            }
+            let mean = weights.iter().sum::<f64>() / weights.len() as f64;
+            for weight in &mut weights {
+                *weight = (*weight / mean).max(1e-2);
+            }
+            let both = weights.iter().zip(self.data.weights);
+            let both: Vec<f64> = both.map(|(weight, own)| weight * own).collect();
+            now = self.weighed_attempt(&problem, now.start, &both, WEIGHED_STEPS);
+            if now.holds && now.largest < best.largest {
+                best = now.clone();
+            }
+            if best.largest <= tolerance || self.progress.is_cancelled() {
+                break;
+            }
+        }
+        best
+    }
+
+    /// Starts at a fit with fewer extrema: the runs of conditions that press most get the other sign.
+    fn released(&self, problem: &Problem, less: &Level) -> Vec<Start> {
+        let known = self.problem(less.splines.count);
+        let fewer = Task {
+            extrema: less.start.slopes.cuts.len(),
+            ..*self
+        };
+        let base = if less.splines.count == problem.splines.count {
+            less.clone()
+        } else {
+            let Some(start) = problem.resampled(&known, &less.start) else {
+                return Vec::new();
+            };
+            fewer.attempt(problem, start, WEIGHED_STEPS)
+        };
+        let more = self.extrema.saturating_sub(fewer.extrema);
+        let runs = released_runs(&base, more).into_iter();
+        runs.map(|slopes| Start {
+            slopes: problem.spread_slopes(slopes),
+            ..base.start.clone()
+        })
+        .collect()
+    }
+}
+
+/// The signs with one or two more changes in which a run that presses gets the other sign.
+fn released_runs(level: &Level, more: usize) -> Vec<SignRuns> {
+    let (press, runs) = (&level.press, &level.start.slopes);
+    let members = press.len();
+    let signs = runs.signs(members);
+    let most = press
+        .iter()
+        .fold(f64::MIN_POSITIVE, |most, it| most.max(*it));
+    let mut pressing: Vec<(f64, usize, usize)> = Vec::new();
+    for member in (0..members).filter(|member| press[*member] > PRESSING * most) {
+        match pressing.last_mut() {
+            Some((sum, _, end)) if member < *end + GAP && signs[member] == signs[*end - 1] => {
+                *sum += press[member];
+                *end = member + 1;
+            }
+            _ => pressing.push((press[member], member, member + 1)),
+        }
+    }
+    pressing.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let with = |begins_positive: bool, added: &[usize]| {
+        let mut cuts = [&runs.cuts, added].concat();
+        cuts.sort_unstable();
+        SignRuns {
+            begins_positive,
+            cuts,
+        }
+    };
+    let mut released = Vec::new();
+    for (_, begin, end) in pressing {
+        let is_free = |cut: &usize| [begin, end].iter().all(|it| it.abs_diff(*cut) >= 2);
+        let at_start = begin < END;
+        let at_end = end + END > members;
+        match more {
+            1 if at_start => released.push(with(!runs.begins_positive, &[end])),
+            1 if at_end => released.push(with(runs.begins_positive, &[begin])),
+            2 if !at_start && !at_end && runs.cuts.iter().all(is_free) => {
+                released.push(with(runs.begins_positive, &[begin, end]));
+            }
+            _ => {}
+        }
+    }
+    released.truncate(RELEASES);
+    released
+}
+
+/// Whether the curve goes astray between two points.
+fn loops(problem: &Problem, start: &Start) -> bool {
+    let offsets = problem.offsets(&start.curve);
+    let points = problem.data.points.windows(2);
+    let places = start.curve.places.windows(2).zip(offsets.windows(2));
+    points.zip(places).any(|(points, (places, offsets))| {
+        let part = |index: usize| {
+            let share = index as f64 / ARC_PARTS as f64;
+            let u = places[0] + share * (places[1] - places[0]);
+            problem.splines.point(&start.curve.vertices, u)
+        };
+        let arc: f64 = (0..ARC_PARTS)
+            .map(|it| part(it).distance(part(it + 1)))
+            .sum();
+        let straight = points[0].distance(points[1]) + offsets[0].length() + offsets[1].length();
+        places[1] >= places[0] && arc > LOOP * straight
+    })
+}
+
+/// The diagonal of the box of points.
+pub(super) fn size(points: &[DVec2]) -> f64 {
+    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (low, high) = points
+        .iter()
+        .fold(none, |(low, high), it| (low.min(*it), high.max(*it)));
+    low.distance(high)
+}

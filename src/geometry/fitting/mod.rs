@@ -1,0 +1,27 @@
+//! Fits of planar float polygons to points with a wished number of curvature extrema.
+//!
+//! The numerator of the curvature's slope is a polynomial on each segment. Conditions on the signs of its
+//! Bernstein coefficients, with as many changes as there are extrema, make each solution its own proof
+//! (Descartes' rule). The signs come from the best piecewise monotone sequence near the curvature of a
+//! smoothed curve; sequential quadratic programming with a banded interior point method finds the vertices;
+//! fits with few vertices begin those with many.
+
+mod banded_rows;
+mod conditions;
+mod descent;
+mod error;
+mod first_places;
+mod fit;
+mod interior_point;
+mod levels;
+mod monotone_runs;
+mod neighbours;
+mod problem;
+mod sign_runs;
+mod slope_coefficients;
+mod splines;
+
+pub use error::FitError;
+pub use fit::{Extrema, Fitted, PlaneFit, TradeOff, fit_plane};
+pub(super) use monotone_runs::best_runs;
+pub use neighbours::corners;

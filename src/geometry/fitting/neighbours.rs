@@ -1,0 +1,218 @@
+//! What points tell of each other: noise, outliers, corners, and points between them.
+
+use glam::DVec2;
+
+use super::first_places::unwrapped;
+
+/// Neighbours on either side of a point that a cubic goes through.
+const BESIDE: usize = 2;
+
+/// The parts of a cubic on which the nearest point is looked for.
+const PARTS: usize = 40;
+
+/// How much farther off than its neighbours an outlier is, and its least distance by that of its neighbours.
+const OUTLYING: f64 = 5.0;
+const LEAST_OUTLYING: f64 = 0.02;
+
+/// The points at either end that are no outliers, and how far two outliers are apart at least.
+const END: usize = 3;
+const APART: usize = 5;
+
+/// The standard deviation of normal numbers in units of the median of their magnitudes.
+const BY_MEDIAN: f64 = 1.4826;
+
+/// How much larger a left out distance is than the noise of a point, on average.
+const LEFT_OUT: f64 = 1.25;
+
+/// The least turn of a corner, in radians, and how much sharper it is than its neighbours.
+const CORNER: f64 = 0.5;
+const SHARPER: f64 = 4.0;
+
+/// The weight of a point between two points.
+const LIGHT: f64 = 0.1;
+
+/// Estimate the standard deviation of the points' noise; where points are sparse, an upper bound of it.
+pub(super) fn noise(points: &[DVec2]) -> f64 {
+    let distances = (0..points.len()).filter_map(|index| left_out_distance(points, index, None));
+    let mut sorted: Vec<f64> = distances.collect();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+    BY_MEDIAN * median / LEFT_OUT
+}
+
+/// List the isolated points that stand out from a smooth run: their neighbours fit well together without them.
+/// None is near an end, and no two are within five points.
+pub(super) fn outliers(points: &[DVec2]) -> Vec<usize> {
+    let count = points.len();
+    let distances = (0..count).map(|index| left_out_distance(points, index, None));
+    let distances: Vec<f64> = distances.map(|it| it.unwrap_or(0.0)).collect();
+    let mut order: Vec<usize> = (END..count.saturating_sub(END)).collect();
+    order.sort_by(|a, b| distances[*b].total_cmp(&distances[*a]));
+    let mut found: Vec<usize> = Vec::new();
+    for index in order {
+        let own = distances[index];
+        let space = 0.5 * points[index + 1].distance(points[index - 1]);
+        let beside = (1..=BESIDE).flat_map(|by| [index.checked_sub(by), Some(index + by)]);
+        let beside = beside.flatten().filter(|other| *other < count);
+        let beside = beside.filter_map(|other| left_out_distance(points, other, Some(index)));
+        let far = (APART..=APART + BESIDE).flat_map(|by| [index.checked_sub(by), Some(index + by)]);
+        let far = far
+            .flatten()
+            .filter_map(|other| distances.get(other).copied());
+        let most = beside.chain(far).fold(0.0, f64::max);
+        let is_free = found.iter().all(|other| other.abs_diff(index) > APART);
+        if is_free && own > OUTLYING * most && own > LEAST_OUTLYING * space {
+            found.push(index);
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+/// List the inner points where the direction turns sharply, and much more than beside them.
+pub fn corners(points: &[DVec2]) -> Vec<usize> {
+    let chords: Vec<DVec2> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let directions = unwrapped(&chords);
+    let turns: Vec<f64> = directions
+        .windows(2)
+        .map(|it| (it[1] - it[0]).abs())
+        .collect();
+    let is_corner = |index: &usize| {
+        let near = [
+            index.checked_sub(2),
+            index.checked_sub(1),
+            Some(index + 1),
+            Some(index + 2),
+        ];
+        let near = near
+            .into_iter()
+            .flatten()
+            .filter_map(|other| turns.get(other));
+        let most = near.fold(0.0_f64, |most, turn| most.max(*turn));
+        turns[*index] > CORNER && turns[*index] > SHARPER * most
+    };
+    (0..turns.len())
+        .filter(is_corner)
+        .map(|turn| turn + 1)
+        .collect()
+}
+
+/// Put a light point between each two points, on the cubic through two neighbours on each side, so that the curve
+/// does not bulge where points are sparse. Returns points and weights.
+pub(super) fn with_middles(points: &[DVec2]) -> (Vec<DVec2>, Vec<f64>) {
+    let count = points.len();
+    if count < 2 * BESIDE {
+        return (points.to_vec(), vec![1.0; count]);
+    }
+    let (mut all, mut weights) = (vec![points[0]], vec![1.0]);
+    for index in 0..count - 1 {
+        let first = index.saturating_sub(1).min(count - 2 * BESIDE);
+        let near: Vec<usize> = (first..first + 2 * BESIDE).collect();
+        let cubic = Cubic::new(points, &near, 0.5);
+        let at = index - first;
+        let middle = 0.5 * (cubic.places[at] + cubic.places[at + 1]);
+        all.extend([cubic.point(middle), points[index + 1]]);
+        weights.extend([LIGHT, 1.0]);
+    }
+    (all, weights)
+}
+
+/// The distance of a point from the cubic through two neighbours on each side, `without` another one. `None`
+/// near the ends.
+fn left_out_distance(points: &[DVec2], index: usize, without: Option<usize>) -> Option<f64> {
+    let counts = |other: &usize| Some(*other) != without;
+    let before: Vec<usize> = (0..index).rev().filter(counts).take(BESIDE).collect();
+    let behind = (index + 1..points.len()).filter(counts).take(BESIDE);
+    let near: Vec<usize> = before.into_iter().rev().chain(behind).collect();
+    if near.len() < 2 * BESIDE {
+        return None;
+    }
+    let cubic = Cubic::new(points, &near, 1.0);
+    let [begin, end] = [cubic.places[1], cubic.places[2]];
+    let step = (end - begin) / PARTS as f64;
+    let target = points[index];
+    let mut before = cubic.point(begin);
+    let distances = (1..=PARTS).map(|part| {
+        let here = cubic.point(begin + part as f64 * step);
+        let chord = here - before;
+        let share = (target - before).dot(chord) / chord.length_squared().max(f64::MIN_POSITIVE);
+        let nearest = before + share.clamp(0.0, 1.0) * chord;
+        before = here;
+        nearest.distance(target)
+    });
+    Some(distances.fold(f64::INFINITY, f64::min))
+}
+
+/// The cubic through four points at given parameters (Lagrange).
+struct Cubic {
+    points: [DVec2; 2 * BESIDE],
+    places: [f64; 2 * BESIDE],
+}
+
+impl Cubic {
+    /// The parameters grow as a power of the chords.
+    fn new(points: &[DVec2], near: &[usize], power: f64) -> Self {
+        let mut cubic = Self {
+            points: [DVec2::ZERO; 2 * BESIDE],
+            places: [0.0; 2 * BESIDE],
+        };
+        for (index, point) in near.iter().enumerate() {
+            cubic.points[index] = points[*point];
+            if index > 0 {
+                let chord = cubic.points[index].distance(cubic.points[index - 1]);
+                cubic.places[index] = cubic.places[index - 1] + chord.powf(power);
+            }
+        }
+        cubic
+    }
+
+    fn point(&self, place: f64) -> DVec2 {
+        let weight = |own: usize| {
+            let others = (0..self.places.len()).filter(|other| *other != own);
+            let factors = others.map(|other| {
+                (place - self.places[other]) / (self.places[own] - self.places[other])
+            });
+            factors.product::<f64>()
+        };
+        let terms = self.points.iter().enumerate();
+        terms.map(|(index, point)| weight(index) * *point).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arc(count: usize) -> Vec<DVec2> {
+        let point = |index: usize| DVec2::from_angle(2.0 * index as f64 / count as f64);
+        (0..count).map(point).collect()
+    }
+
+    #[test]
+    fn a_point_beside_a_smooth_run_is_an_outlier_and_no_end_is() {
+        let mut points = arc(40);
+        assert!(outliers(&points).is_empty());
+        points[0] += DVec2::new(0.05, 0.0);
+        points[17] += DVec2::new(0.05, 0.05);
+        assert_eq!(outliers(&points), [17]);
+    }
+
+    #[test]
+    fn corners_are_sharp_points_and_not_tight_bends() {
+        assert!(corners(&arc(9)).is_empty());
+        let mut points = arc(40);
+        let legs = (1..20).map(|it| points[39] + 0.05 * it as f64 * DVec2::X);
+        let legs: Vec<DVec2> = legs.collect();
+        points.extend(legs);
+        assert_eq!(corners(&points), [39]);
+    }
+
+    #[test]
+    fn middles_lie_on_the_curve_of_the_points() {
+        let (points, weights) = with_middles(&arc(40));
+        assert_eq!((points.len(), weights.len()), (79, 79));
+        for point in points {
+            assert!((point.length() - 1.0).abs() < 1e-5, "{point}");
+        }
+    }
+}
