@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod airfoils;
 mod fits;
 mod fits_with_extrema;
 mod periodic;

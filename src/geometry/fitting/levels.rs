@@ -119,10 +119,7 @@ impl<'a> Task<'a> {
         if self.periodic {
             return (degree + 3).max(2 * self.extrema + 4);
         }
-        let points = self.data.points.len();
-        (degree + 4)
-            .max(self.extrema + 6)
-            .min((points / 2).max(degree + 3))
+        (degree + 4).max(self.extrema + 6)
     }
 
     /// Find fits with ever more vertices, each nearer than the one before. `fewer` are fits with fewer extrema,
@@ -132,12 +129,12 @@ impl<'a> Task<'a> {
     /// patterns of smoothed curves too. Returns the levels that hold, the nearest last.
     pub(super) fn levels(&self, fewer: &[Level]) -> Vec<Level> {
         let mut levels: Vec<Level> = Vec::new();
-        let least = self
-            .count
-            .map_or(self.least(), |count| self.least().min(count));
-        let most = self.count.unwrap_or(self.most.max(least));
+        let most = self.count.unwrap_or(self.most);
+        let least = self.least().min(most);
         let size = size(self.data.points);
         let (mut count, mut stale, mut level) = (least, 0, 0);
+        // How many levels there were when weights were tried last.
+        let mut weighed = None;
         loop {
             let found = self.level(count, level, levels.last(), fewer, count == most);
             if self.progress.is_cancelled() {
@@ -156,12 +153,15 @@ impl<'a> Task<'a> {
                 Some(found) if self.count == Some(count) => levels.push(found),
                 _ => stale += usize::from(before.is_some()),
             }
+            let ends = count >= most || (stale >= STALE && self.count.is_none());
             if let (Some(best), Some(tolerance)) = (levels.last(), self.tolerance) {
                 let is_close = best.largest > tolerance && best.largest < CLOSE * tolerance;
-                if is_close && (count >= most || stale >= 1) {
-                    let weighed = self.weighed(best, tolerance);
-                    if weighed.largest <= tolerance {
-                        levels.push(weighed);
+                let is_new = weighed != Some(levels.len());
+                if is_close && is_new && (ends || stale >= 1) {
+                    weighed = Some(levels.len());
+                    let nearer = self.weighed(best, tolerance);
+                    if nearer.largest <= tolerance {
+                        levels.push(nearer);
                         break;
                     }
                 }
@@ -176,7 +176,7 @@ impl<'a> Task<'a> {
                 let far = |best: &Level| best.largest > FAR * tolerance && gain > FAR_GAIN;
                 level >= FAR_LEVEL && levels.last().is_none_or(far)
             });
-            if count >= most || is_far || (stale >= STALE && self.count.is_none()) {
+            if ends || is_far {
                 break;
             }
             count = self.next_count(count).min(most);

@@ -1,0 +1,295 @@
+//! Fits of airfoils that others have measured, checked by an evaluation of their own.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use batten::geometry::Progress;
+use batten::geometry::fitting::{Extrema, Fitted, PlaneFit, fit_plane};
+use glam::DVec2;
+
+/// The degree of all fits.
+const DEGREE: usize = 5;
+
+/// The samples of a segment by which a curve is measured.
+const SAMPLES: usize = 200;
+
+/// What a fit is, by the test's own evaluation.
+struct Seen {
+    /// The largest distance of a point from the curve, by the chord.
+    largest: f64,
+    /// The length of the curve by that of the polyline of the points.
+    length: f64,
+    /// The largest distance of the curve from that polyline, by three times the larger of the largest distance
+    /// of a point and a quarter of the widest gap.
+    astray: f64,
+    /// How often the slope of the curvature changes its sign.
+    extrema: usize,
+    vertices: usize,
+}
+
+/// The files of a folder: title, points.
+fn files(folder: &Path) -> Vec<(String, Vec<DVec2>)> {
+    let entries = fs::read_dir(folder).expect("the folder of airfoils");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let mut paths: Vec<PathBuf> = paths.collect();
+    paths.retain(|path| path.extension().is_some_and(|it| it == "dat"));
+    paths.sort();
+    let read = |path: &PathBuf| {
+        let bytes = fs::read(path).expect("a file");
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        (name.into_owned(), points(&String::from_utf8_lossy(&bytes)))
+    };
+    paths.iter().map(read).collect()
+}
+
+/// The lines of two numbers, each point once.
+fn points(text: &str) -> Vec<DVec2> {
+    let lines = text.lines().filter_map(|line| {
+        let numbers: Vec<f64> = line
+            .split_whitespace()
+            .map_while(|it| it.parse().ok())
+            .collect();
+        match numbers[..] {
+            [x, y] if x.abs() < 1.6 => Some(DVec2::new(x, y)),
+            _ => None,
+        }
+    });
+    let mut points: Vec<DVec2> = lines.collect();
+    points.dedup();
+    points
+}
+
+/// The part of a section from its trailing edge over the upper side to its leading edge.
+fn upper(points: &[DVec2]) -> Vec<DVec2> {
+    let nose = (0..points.len()).min_by(|a, b| points[*a].x.total_cmp(&points[*b].x));
+    points[..=nose.expect("points")].to_vec()
+}
+
+/// Evaluate a uniform B-spline by de Boor's algorithm.
+fn de_boor(vertices: &[DVec2], degree: usize, u: f64) -> DVec2 {
+    let segment = (u as usize).min(vertices.len() - degree - 1);
+    let mut near = vertices[segment..=segment + degree].to_vec();
+    for level in 1..=degree {
+        for index in (level..=degree).rev() {
+            // The knots of vertex i are i − n … i + 1.
+            let knot = (segment + index) as f64 - degree as f64;
+            let share = (u - knot) / (degree + 1 - level) as f64;
+            near[index] = near[index - 1].lerp(near[index], share);
+        }
+    }
+    near[degree]
+}
+
+fn differences(vertices: &[DVec2]) -> Vec<DVec2> {
+    vertices.windows(2).map(|pair| pair[1] - pair[0]).collect()
+}
+
+fn distance_to_chord(point: DVec2, chord: &[DVec2]) -> f64 {
+    let along = chord[1] - chord[0];
+    let share = (point - chord[0]).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+    (chord[0] + share.clamp(0.0, 1.0) * along).distance(point)
+}
+
+fn look_at(points: &[DVec2], vertices: &[DVec2]) -> Seen {
+    let segments = vertices.len() - DEGREE;
+    let places = (0..=SAMPLES * segments).map(|it| it as f64 / SAMPLES as f64);
+    let places: Vec<f64> = places.collect();
+    let curve: Vec<DVec2> = places
+        .iter()
+        .map(|u| de_boor(vertices, DEGREE, *u))
+        .collect();
+    let distance = |point: &DVec2| {
+        let chords = curve
+            .windows(2)
+            .map(|chord| distance_to_chord(*point, chord));
+        chords.fold(f64::INFINITY, f64::min)
+    };
+    let largest = points.iter().map(distance).fold(0.0, f64::max);
+    let off = |place: &DVec2| {
+        let chords = points
+            .windows(2)
+            .map(|chord| distance_to_chord(*place, chord));
+        chords.fold(f64::INFINITY, f64::min)
+    };
+    let farthest = curve.iter().step_by(7).map(off).fold(0.0, f64::max);
+    let length = |points: &[DVec2]| -> f64 {
+        points
+            .windows(2)
+            .map(|pair| pair[0].distance(pair[1]))
+            .sum()
+    };
+    let gaps = points.windows(2).map(|pair| pair[0].distance(pair[1]));
+    let gap = gaps.fold(0.0, f64::max);
+    let first = differences(vertices);
+    let [second, third] = [differences(&first), differences(&differences(&first))];
+    let slope = |u: &f64| {
+        let [a, b, c] = [
+            de_boor(&first, DEGREE - 1, *u),
+            de_boor(&second, DEGREE - 2, *u),
+            de_boor(&third, DEGREE - 3, *u),
+        ];
+        let grows = a.perp_dot(c) * a.length_squared();
+        let shrinks = 3.0 * a.perp_dot(b) * a.dot(b);
+        let rounding = 1e-11 * (grows.abs() + shrinks.abs());
+        let slope = grows - shrinks;
+        (slope.abs() > rounding).then_some(slope > 0.0)
+    };
+    let signs: Vec<bool> = places.iter().filter_map(slope).collect();
+    let across = points.iter().map(|point| point.x);
+    let chord = across.clone().fold(f64::MIN, f64::max) - across.fold(f64::MAX, f64::min);
+    Seen {
+        largest: largest / chord,
+        length: length(&curve) / length(points),
+        astray: farthest / (3.0 * largest.max(0.25 * gap)),
+        extrema: signs.windows(2).filter(|pair| pair[0] != pair[1]).count(),
+        vertices: vertices.len(),
+    }
+}
+
+/// Fit points, and check what the fit says of itself.
+fn fit(name: &str, points: &[DVec2], asked: &PlaneFit) -> (Fitted, Seen) {
+    let found = fit_plane(points, asked, &Progress::default());
+    let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
+    let vertices = found
+        .polygon
+        .vertices()
+        .iter()
+        .map(|vertex| vertex.truncate());
+    let seen = look_at(points, &vertices.collect::<Vec<DVec2>>());
+    let chord = points.iter().map(|it| it.x).fold(f64::MIN, f64::max)
+        - points.iter().map(|it| it.x).fold(f64::MAX, f64::min);
+    // The distance that is told is from the part of the curve where the point belongs.
+    assert!(seen.largest <= found.largest / chord + 1e-6, "{name}");
+    assert_eq!(seen.extrema, found.extrema, "{name}");
+    assert!(seen.length < 1.02, "{name}: {} times as long", seen.length);
+    assert!(seen.astray < 1.0, "{name}: {} astray", seen.astray);
+    assert!(
+        seen.vertices <= (points.len() / 2).max(DEGREE + 1),
+        "{name}"
+    );
+    (found, seen)
+}
+
+fn asked(extrema: Extrema, tolerance: Option<f64>) -> PlaneFit {
+    PlaneFit {
+        degree: DEGREE,
+        extrema,
+        tolerance,
+        outliers: tolerance.map(|_| Vec::new()),
+        ..PlaneFit::default()
+    }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/airfoils")
+}
+
+#[test]
+fn sections_have_the_wished_number_of_extrema() {
+    for (extrema, limit) in [(1, 1e-3), (3, 3.5e-4)] {
+        let fits = files(&folder()).into_iter().map(|(name, points)| {
+            let (found, seen) = fit(&name, &points, &asked(Extrema::Exactly(extrema), None));
+            assert!(found.holds && found.extrema == extrema, "{name}");
+            assert!(seen.vertices <= 40, "{name}");
+            seen.largest
+        });
+        let median = median(fits.collect());
+        assert!(median <= limit, "{extrema} extrema: {median}");
+    }
+}
+
+#[test]
+fn upper_sides_have_the_wished_number_of_extrema() {
+    for (extrema, limit) in [(0, 6e-4), (2, 1.5e-4)] {
+        let fits = files(&folder()).into_iter().map(|(name, points)| {
+            let asked = asked(Extrema::Exactly(extrema), None);
+            let (found, seen) = fit(&name, &upper(&points), &asked);
+            assert!(found.holds && found.extrema == extrema, "{name}");
+            seen.largest
+        });
+        let median = median(fits.collect());
+        assert!(median <= limit, "{extrema} extrema: {median}");
+    }
+}
+
+#[test]
+fn a_tolerance_of_a_thousandth_is_kept_with_few_extrema() {
+    let fits = files(&folder()).into_iter().map(|(name, points)| {
+        let (found, seen) = fit(&name, &points, &asked(Extrema::Fewest, Some(1e-3)));
+        assert!(found.deviation <= 1e-3 && seen.largest <= 1e-3, "{name}");
+        assert!(found.extrema <= 6, "{name}: {}", found.extrema);
+        found.extrema as f64
+    });
+    assert!(median(fits.collect()) <= 2.0);
+}
+
+#[test]
+fn fits_without_wishes_are_near_and_calm() {
+    let fits = files(&folder()).into_iter().map(|(name, points)| {
+        let (_, seen) = fit(&name, &points, &asked(Extrema::Fewest, None));
+        seen.largest
+    });
+    let median = median(fits.collect());
+    assert!(median <= 7e-4, "{median}");
+}
+
+/// Print a line for each wish: how many fits hold, distances by the chord, vertices, seconds.
+#[test]
+#[ignore = "takes minutes; BATTEN_AIRFOILS names the folder of files"]
+fn all_wishes_of_all_sections() {
+    let folder = std::env::var_os("BATTEN_AIRFOILS").map_or_else(folder, PathBuf::from);
+    let files = files(&folder);
+    let wishes = [1, 2, 3].map(|extrema| (asked(Extrema::Exactly(extrema), None), false));
+    let sides = [0, 1, 2, 3].map(|extrema| (asked(Extrema::Exactly(extrema), None), true));
+    let near = [1e-3, 5e-4, 2e-4].map(|it| (asked(Extrema::Fewest, Some(it)), false));
+    let plain = [(asked(Extrema::Fewest, None), false)];
+    for (asked, is_upper) in wishes.into_iter().chain(sides).chain(near).chain(plain) {
+        let mut rows: Vec<(bool, Seen, f64)> = Vec::new();
+        for (name, points) in &files {
+            let points = if is_upper {
+                upper(points)
+            } else {
+                points.clone()
+            };
+            let start = Instant::now();
+            let (found, seen) = fit(name, &points, &asked);
+            let near = asked
+                .tolerance
+                .is_none_or(|tolerance| found.deviation <= tolerance);
+            rows.push((found.holds && near, seen, start.elapsed().as_secs_f64()));
+        }
+        let mut largest: Vec<f64> = rows.iter().map(|(_, seen, _)| seen.largest).collect();
+        largest.sort_by(f64::total_cmp);
+        let at = |share: f64| largest[(share * (largest.len() - 1) as f64) as usize];
+        let times: Vec<f64> = rows.iter().map(|(_, _, time)| *time).collect();
+        println!(
+            "{:?} {:?} {}: {} of {}; largest {:.1e} {:.1e} {:.1e}; extrema {}, vertices {}; {:.2} s, {:.1} s",
+            asked.extrema,
+            asked.tolerance,
+            if is_upper { "upper" } else { "whole" },
+            rows.iter().filter(|(reached, ..)| *reached).count(),
+            rows.len(),
+            at(0.5),
+            at(0.9),
+            at(1.0),
+            median(
+                rows.iter()
+                    .map(|(_, seen, _)| seen.extrema as f64)
+                    .collect()
+            ),
+            median(
+                rows.iter()
+                    .map(|(_, seen, _)| seen.vertices as f64)
+                    .collect()
+            ),
+            median(times.clone()),
+            times.iter().fold(0.0, |most: f64, it| most.max(*it)),
+        );
+    }
+}
