@@ -16,6 +16,9 @@ use crate::geometry::features::Features;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{FloatPolygon, Progress, counted, rounded_up};
 
+/// How far the curve may move without a wish, by its size.
+const MOST_DEVIATION: f64 = 0.05;
+
 const STANDING_OUT: Meaning = |_| "those that stand out";
 
 const FREE: Choice = Choice::new("free", "Free");
@@ -105,7 +108,10 @@ const MAX_DEVIATION: Parameter = Parameter {
     name: "max-deviation",
     label: "Deviation up to",
     help: "How far the curve may move at most",
-    kind: Kind::optional_number((Bound::Included(0.0), Bound::Unbounded), |_| "any"),
+    kind: Kind::optional_number(
+        (Bound::Included(0.0), Bound::Unbounded),
+        |_| "5 % of the size",
+    ),
 };
 
 /// The operation: its description, and how it is checked and run.
@@ -145,6 +151,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let asked = |parameter| given_count(values, parameter);
     let locked = locked(curve, values)?;
     let most = given(values, &MAX_DEVIATION);
+    let most = most.or(Some(MOST_DEVIATION * curve.polygon.size()));
     let harmony = Harmony {
         stretch,
         ends: [end(&KEEP_START), end(&KEEP_END)],
@@ -166,12 +173,21 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         }
         outcome
     } else {
-        let deviation = Deviation::AtMost(found.deviation);
+        let deviation = match found.refitted {
+            true => Deviation::Measured(found.deviation),
+            false => Deviation::AtMost(found.deviation),
+        };
         Outcome::reshaped(id, found.polygon.clone(), deviation)
     };
     outcome.reached = found.reached;
     if !found.reached {
         outcome.remarks = vec![why_not(&found, &harmony)];
+    }
+    if found.refitted {
+        outcome.remarks.push(
+            "Fitted to the curve: the least change of vertices does not do, or moves it too far"
+                .to_owned(),
+        );
     }
     if let Some(stretch) = stretch {
         let polygons = [&curve.polygon, &found.polygon];

@@ -8,6 +8,7 @@ use super::problem::{Problem, Sweep};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::Features;
+use crate::geometry::fitting::{Refit, refit};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
@@ -25,6 +26,9 @@ const SWEEP: f64 = 0.1;
 
 /// Precision of the largest ε, as a factor.
 const FOUND: f64 = 1.2;
+
+/// A move of the curve by less than this share of its size is near enough to fit nothing instead.
+const NEAR: f64 = 1e-3;
 
 /// The most steps for one ε.
 const MOST_STEPS: usize = 20;
@@ -90,6 +94,9 @@ pub struct Harmonised {
     pub deviation: f64,
     /// The number of Gauss–Newton steps in all.
     pub iterations: usize,
+    /// Whether the curve was fitted to the old one instead, because the least change did not do; the deviation
+    /// is then measured at samples.
+    pub refitted: bool,
 }
 
 /// Why a curve cannot be harmonised.
@@ -183,6 +190,7 @@ pub fn harmonise(
         undecided: found.undecided,
         deviation: 0.0,
         iterations: 0,
+        refitted: false,
     };
     if unchanged.reached {
         return Ok(unchanged);
@@ -220,10 +228,61 @@ pub fn harmonise(
     }
     search.prove_most_promising()?;
     let iterations = search.iterations;
-    Ok(Harmonised {
-        iterations,
-        ..search.best.harmonised
-    })
+    let mut best = search.best.harmonised;
+    let is_near = best.reached && best.deviation <= NEAR * polygon.size();
+    if !is_near
+        && let Some(refitted) = refitted(polygon, harmony, request, progress)
+        && (!best.reached || refitted.deviation < best.deviation)
+    {
+        best = refitted;
+    }
+    Ok(Harmonised { iterations, ..best })
+}
+
+/// Fit a planar curve as a whole to the old one, if it then has the features asked for and does not move too far.
+fn refitted(
+    polygon: &FloatPolygon,
+    harmony: &Harmony,
+    request: CountRequest,
+    progress: &Progress,
+) -> Option<Harmonised> {
+    let is_whole = harmony.stretch.is_none() && harmony.locked.is_empty();
+    if !is_whole || !polygon.is_planar() || polygon.weights().is_some() || polygon.degree() < 3 {
+        return None;
+    }
+    let order = |held: Held| match held {
+        Held::Free => Some(None),
+        Held::Position => Some(Some(0)),
+        Held::Direction => Some(Some(1)),
+        Held::Curvature => Some(Some(2)),
+        Held::Slope | Held::All => None,
+    };
+    let [start, end] = harmony.ends.map(order);
+    let kept = [start?, end?];
+    let most = harmony.largest_deviation.unwrap_or(f64::INFINITY);
+    let tried = |inflections: Option<usize>| {
+        let asked = Refit {
+            extrema: request.counts.extrema,
+            inflections,
+            kept,
+        };
+        let (refitted, deviation) = refit(polygon, &asked, progress)?;
+        let features = Features::proved(&refitted, |_| !progress.is_cancelled())?;
+        let found = counted(&features, true, domain(&refitted));
+        (found.has(request) && deviation <= most).then_some(Harmonised {
+            polygon: refitted,
+            reached: true,
+            request: request.counts,
+            counts: found.counts,
+            undecided: found.undecided,
+            deviation,
+            iterations: 0,
+            refitted: true,
+        })
+    };
+    // Where no number of inflections is given, fewer will do.
+    let first = tried(harmony.inflections);
+    first.or_else(|| tried(Some(request.counts.inflections)))
 }
 
 fn prove(polygon: &FloatPolygon, progress: &Progress) -> Result<Features, HarmonyError> {
@@ -491,6 +550,7 @@ impl Search<'_> {
                 undecided: proved.undecided,
                 deviation,
                 iterations: self.iterations,
+                refitted: false,
             },
         };
         if candidate.rank() < self.best.rank() {

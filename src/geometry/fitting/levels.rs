@@ -31,6 +31,9 @@ const FRESH: [usize; 3] = [0, 2, 4];
 const ONE_SIGN: usize = 3;
 const ONE_START: usize = 5;
 
+/// With more vertices than these, levels that bring nothing are left out.
+const MANY: usize = 80;
+
 /// An error above this share of the one before is no gain; so many of them in a row end the search.
 const GAIN: f64 = 0.97;
 const STALE: usize = 3;
@@ -179,7 +182,11 @@ impl<'a> Task<'a> {
             if ends || is_far {
                 break;
             }
-            count = self.next_count(count).min(most);
+            // Where more vertices bring nothing, the number asked for comes next.
+            count = match stale >= STALE && count > MANY {
+                true => most,
+                false => self.next_count(count).min(most),
+            };
         }
         levels
     }
@@ -250,14 +257,15 @@ impl<'a> Task<'a> {
                 better(&mut found, first);
             }
         }
-        if FRESH.contains(&level) || !found.as_ref().is_some_and(|found| found.holds) {
-            let starts = if level < ONE_START {
+        let is_asked = self.count == Some(count) && count <= MANY;
+        if FRESH.contains(&level) || is_asked || !found.as_ref().is_some_and(|it| it.holds) {
+            let starts = if level < ONE_START || is_asked {
                 &STARTS[..]
             } else {
                 &STARTS[..1]
             };
             for (bend, fair) in starts {
-                let signs = if level < ONE_SIGN { 2 } else { 1 };
+                let signs = if level < ONE_SIGN || is_asked { 2 } else { 1 };
                 for start in self.fresh(&problem, *bend, *fair).into_iter().take(signs) {
                     if self.progress.is_cancelled() {
                         return found;

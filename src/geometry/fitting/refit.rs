@@ -1,0 +1,102 @@
+//! Fits to a curve: nearly the same curve with other features.
+
+use glam::{DVec2, DVec3};
+
+use super::levels::Task;
+use super::problem::{Data, EndCondition, EndValue};
+use super::slope_coefficients::SlopeTables;
+use crate::geometry::end::End;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+
+/// The samples of a segment that the new curve is near to.
+const SAMPLES: usize = 6;
+
+/// What the new curve has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::geometry) struct Refit {
+    /// The number of curvature extrema.
+    pub(in crate::geometry) extrema: usize,
+    /// The number of inflections; `None` for any.
+    pub(in crate::geometry) inflections: Option<usize>,
+    /// Up to which derivative each end stays as it is: `Some(0)` for the point, `Some(2)` for point, direction
+    /// and curvature.
+    pub(in crate::geometry) kept: [Option<usize>; 2],
+}
+
+/// Find a planar curve near another one with so many extrema, the same degree and number of vertices, proved.
+///
+/// Returns it with the largest distance of the old curve from it, at samples. `None` if none is found, or the
+/// computation was cancelled.
+pub(in crate::geometry) fn refit(
+    polygon: &FloatPolygon,
+    asked: &Refit,
+    progress: &Progress,
+) -> Option<(FloatPolygon, f64)> {
+    let segments = polygon.segments();
+    let samples = SAMPLES * segments + usize::from(!polygon.is_periodic());
+    let place = |sample: usize| polygon.point(sample as f64 / SAMPLES as f64).truncate();
+    let points: Vec<DVec2> = (0..samples).map(place).collect();
+    let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let middle = 0.5 * low + 0.5 * high;
+    let unit = 2.0_f64.powi((high - low).max_element().log2().ceil() as i32);
+    if !(unit > 0.0 && unit.is_finite()) {
+        return None;
+    }
+    let points: Vec<DVec2> = points.iter().map(|it| (*it - middle) / unit).collect();
+    let weights = vec![1.0; points.len()];
+    let ends = ends(polygon, asked.kept, |point| (point - middle) / unit, unit);
+    let tables = SlopeTables::new(polygon.degree());
+    let task = Task {
+        data: Data {
+            points: &points,
+            weights: &weights,
+            ends: &ends,
+        },
+        degree: polygon.degree(),
+        periodic: polygon.is_periodic(),
+        extrema: asked.extrema,
+        inflections: asked.inflections,
+        count: Some(polygon.vertices().len()),
+        most: polygon.vertices().len(),
+        tolerance: None,
+        tables: &tables,
+        progress,
+    };
+    let levels = task.levels(&[]).into_iter();
+    let whole = levels.filter(|level| level.splines.count == polygon.vertices().len());
+    let best = whole.min_by(|a, b| a.largest.total_cmp(&b.largest))?;
+    let vertices = best.start.curve.vertices.iter();
+    let vertices = vertices.map(|vertex| (unit * *vertex + middle).extend(0.0));
+    let vertices: Vec<DVec3> = vertices.collect();
+    let degree = polygon.degree();
+    let polygon = FloatPolygon::new(degree, vertices, None, polygon.is_periodic()).ok()?;
+    Some((polygon, unit * best.largest))
+}
+
+/// The conditions at the ends of an open curve.
+fn ends(
+    polygon: &FloatPolygon,
+    kept: [Option<usize>; 2],
+    placed: impl Fn(DVec2) -> DVec2,
+    unit: f64,
+) -> Vec<EndCondition> {
+    if polygon.is_periodic() {
+        return Vec::new();
+    }
+    let mut conditions = Vec::new();
+    for (end, order) in [End::Start, End::Finish].into_iter().zip(kept) {
+        let Some(order) = order else { continue };
+        let jet = polygon.end_jet(end);
+        let point = EndValue::Point(placed(jet.point.truncate()));
+        let direction = jet.tangent().map(|it| EndValue::Direction(it.truncate()));
+        let curvature = unit * jet.signed_curvature();
+        let curvature = Some(EndValue::Curvature(curvature)).filter(|_| curvature.is_finite());
+        let values = [Some(point), direction, curvature]
+            .into_iter()
+            .take(order + 1);
+        conditions.extend(values.flatten().map(|value| EndCondition { end, value }));
+    }
+    conditions
+}
