@@ -28,7 +28,7 @@ const SWEEP: f64 = 0.1;
 const FOUND: f64 = 1.2;
 
 /// A move of the curve by less than this share of its size is near enough to fit nothing instead.
-const NEAR: f64 = 1e-3;
+const NEAR: f64 = 1e-2;
 
 /// The most steps for one ε.
 const MOST_STEPS: usize = 20;

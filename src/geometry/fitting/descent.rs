@@ -44,8 +44,9 @@ const CALM: usize = 2;
 /// What a step must gain of the merit at least, against rounding.
 const ROUNDING: f64 = 1e-10;
 
-/// What ends may miss, in the units of their equations.
-const END_TOLERANCE: f64 = 1e-8;
+/// What ends may miss, in the units of their equations, and how near the last steps come.
+const END_TOLERANCE: f64 = 1e-10;
+const END_GOAL: f64 = 1e-13;
 
 /// Rows shorter than this, and legs below this share of the mean one, count as so long.
 const LEAST_ROW: f64 = 1e-9;
@@ -454,7 +455,7 @@ impl Descent<'_> {
             let equations = end_equations(self.problem, &now.start.curve.vertices, &scales);
             let held = equations
                 .iter()
-                .all(|(_, missed)| missed.abs() < 0.1 * END_TOLERANCE);
+                .all(|(_, missed)| missed.abs() < END_GOAL);
             if held && now.conditions.hold() {
                 return true;
             }
