@@ -9,9 +9,10 @@ use anyhow::{Context, anyhow, bail};
 
 use super::apply_arguments::misused;
 use super::ends::{Destination, Source};
+use super::items::{found, items, listed};
 use super::output;
 use super::progress::Progress as Line;
-use crate::document::{Curve, CurveId, Document, Edit, MergeError, quoted};
+use crate::document::{Curve, CurveId, Document, Edit, MergeError};
 use crate::geometry::Progress;
 use crate::geometry::expressions::LengthUnit;
 use crate::io::json_layout;
@@ -243,48 +244,6 @@ impl Application {
         let outcome = operation.run(input, &values, progress)?;
         let report = Report::of(operation, input, &outcome, progress);
         Ok((outcome, report.ok_or(OperationError::Cancelled)?))
-    }
-}
-
-/// The curves of a document, and the references that an operation can work on, with their names.
-fn items(document: &Document, inputs: Inputs) -> Vec<(CurveId, &str)> {
-    let curves = document.curves();
-    let curves = curves.map(|(id, curve)| (id, curve.name.as_str()));
-    let references = document.references().filter(|(_, reference)| match inputs {
-        Inputs::OneOrNone => true,
-        Inputs::Points => reference.points().is_some(),
-        _ => false,
-    });
-    let references = references.map(|(id, reference)| (id, reference.name.as_str()));
-    curves.chain(references).collect()
-}
-
-/// Find an item by its name or, if none has this name, by its number, counted from 1.
-fn found(items: &[(CurveId, &str)], inputs: Inputs, name: &str) -> anyhow::Result<CurveId> {
-    let named = items.iter().filter(|(_, known)| *known == name);
-    let named: Vec<CurveId> = named.map(|(id, _)| *id).collect();
-    let number = name.parse::<usize>().ok();
-    let numbered = number.and_then(|number| items.get(number.checked_sub(1)?));
-    let [one, several] = match inputs {
-        Inputs::One | Inputs::Two => ["curve", "curves"],
-        _ => ["curve or reference", "curves and references"],
-    };
-    let name = quoted(name);
-    match (&named[..], numbered) {
-        ([id], _) | ([], Some((id, _))) => Ok(*id),
-        ([], None) => bail!("there is no {one} {name}: {}", listed(items)),
-        (several_named, _) => {
-            let count = several_named.len();
-            bail!("there are {count} {several} {name}: give them different names first")
-        }
-    }
-}
-
-fn listed(items: &[(CurveId, &str)]) -> String {
-    let names: Vec<String> = items.iter().map(|(_, name)| quoted(name)).collect();
-    match &names[..] {
-        [name] => format!("there is {name}"),
-        names => format!("there are {}", names.join(", ")),
     }
 }
 

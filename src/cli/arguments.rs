@@ -9,11 +9,13 @@ use super::apply::Application;
 use super::apply_arguments::ApplyArguments;
 use super::ends::{Destination, Source};
 use super::parsers::{
-    columns, example_parser, format_parser, parameter, polygon_parser, unit_parser,
+    columns, count, example_parser, format_parser, parameter, polygon_parser, spacing_parser,
+    tolerance, unit_parser,
 };
+use super::points::Density;
 use crate::document::quoted;
-use crate::geometry::PolygonKind;
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::{PolygonKind, Spacing};
 use crate::io::examples::Example;
 use crate::io::formats;
 use crate::io::{ColumnChoice, Format};
@@ -93,6 +95,39 @@ enum Command {
         #[arg(long)]
         force: bool,
     },
+    /// Write points on a curve as a table: a section goes back to the solver that it came from
+    ///
+    /// The title of the table that the curve was fitted to is kept, and so is the order around a section.
+    /// How near to the curve the polyline through the points is, is measured and told on stderr.
+    Points {
+        /// The file to read, or - for the standard input; its extension tells the format
+        #[arg(value_name = "FILE")]
+        input: PathBuf,
+        /// The file to write, or - for the standard output; its extension tells the format
+        #[arg(value_name = "OUT")]
+        out: PathBuf,
+        /// The format to read, whatever the file's extension; needed for the standard input
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::readable()))]
+        from_format: Option<&'static Format>,
+        /// The columns of x, y and, in space, z in a table of points, by numbers from 1 or by names
+        #[arg(long, value_name = "COLUMNS", value_parser = columns)]
+        columns: Option<ColumnChoice>,
+        /// The format to write, whatever the file's extension; needed for the standard output
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::writable()))]
+        to_format: Option<&'static Format>,
+        /// The number of points, both ends of the curve among them
+        #[arg(long, value_name = "N", value_parser = count, required_unless_present = "tolerance")]
+        count: Option<usize>,
+        /// As few points as keep the polyline through them within this distance of the curve
+        #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with_all = ["count", "spacing"])]
+        tolerance: Option<f64>,
+        /// How a number of points is spread; cosine: densely at the ends and at the nose of a section
+        #[arg(long, value_parser = spacing_parser(), default_value = "arc-length")]
+        spacing: Spacing,
+        /// The curve or reference; needed where the file has several
+        #[arg(long, value_name = "NAME")]
+        curve: Option<String>,
+    },
     /// Apply an operation to a curve of a file, and print what it did as JSON
     ///
     /// The file that is written holds everything that was read, with the changes made. Nothing is
@@ -148,6 +183,17 @@ pub(super) enum Task {
         /// Whether to write what cannot be read back.
         force: bool,
     },
+    /// Write points on a curve.
+    Points {
+        /// The source.
+        source: Source,
+        /// The destination.
+        destination: Destination,
+        /// How many points there are, and where.
+        density: Density,
+        /// The name of the curve that was chosen.
+        curve: Option<String>,
+    },
     /// List the operations.
     Operations,
     /// Apply an operation.
@@ -202,6 +248,25 @@ impl Arguments {
                 polygon,
                 assumed_unit: assume_unit,
                 force,
+            },
+            Some(Command::Points {
+                input,
+                out,
+                from_format,
+                columns,
+                to_format,
+                count,
+                tolerance,
+                spacing,
+                curve,
+            }) => Task::Points {
+                source: source("points", input, from_format, columns)?,
+                destination: destination("points", out, to_format)?,
+                density: match tolerance {
+                    Some(tolerance) => Density::Tolerance(tolerance),
+                    None => Density::Count(count.unwrap_or_default(), spacing),
+                },
+                curve,
             },
             Some(Command::Apply(ApplyArguments::List)) => Task::Operations,
             Some(Command::Apply(ApplyArguments::Run(given))) => Task::Apply(Application {

@@ -10,8 +10,10 @@ mod ends;
 mod feature_lists;
 mod inspect;
 mod inspected_reference;
+mod items;
 mod output;
 mod parsers;
+mod points;
 mod progress;
 mod references;
 
@@ -57,6 +59,12 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
         Ok(Task::Apply(application)) => {
             return Request::Done(exit_code(apply::run(&application)));
         }
+        Ok(Task::Points {
+            source,
+            destination,
+            density,
+            curve,
+        }) => points::run(&source, &destination, density, curve.as_deref()),
         Ok(Task::Inspect { source, at }) => inspect::run(&source, &at),
         Err(error) => {
             if error.use_stderr() {

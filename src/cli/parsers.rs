@@ -2,10 +2,13 @@
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-use crate::geometry::PolygonKind;
-use crate::geometry::expressions::LengthUnit;
+use crate::geometry::expressions::{LengthUnit, NumberContext};
+use crate::geometry::{PolygonKind, Spacing};
 use crate::io::examples::{EXAMPLES, Example};
 use crate::io::{ColumnChoice, Format, formats};
+
+/// The most points that are written.
+const MOST_POINTS: usize = 1_000_000;
 
 /// Read a format by its extension.
 pub(super) fn format_parser(
@@ -14,6 +17,35 @@ pub(super) fn format_parser(
     let formats = formats.into_iter();
     let names = PossibleValuesParser::new(formats.map(Format::extension));
     names.try_map(|name| formats::find(&name).ok_or("no such format"))
+}
+
+pub(super) fn spacing_parser() -> impl TypedValueParser<Value = Spacing> {
+    let names = PossibleValuesParser::new(Spacing::ALL.map(Spacing::name));
+    names.try_map(|name| {
+        let mut all = Spacing::ALL.into_iter();
+        all.find(|it| it.name() == name).ok_or("no such spacing")
+    })
+}
+
+/// Read a number of points, which may be an expression.
+pub(super) fn count(text: &str) -> Result<usize, String> {
+    let number = NumberContext::default().read(text);
+    let number = number.map_err(|mistake| mistake.to_string())?;
+    let is_count = number.fract() == 0.0 && (2.0..=MOST_POINTS as f64).contains(&number);
+    match is_count {
+        true => Ok(number as usize),
+        false => Err(format!("a whole number from 2 to {MOST_POINTS} is needed")),
+    }
+}
+
+/// Read a tolerance, which may be an expression.
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    let number = NumberContext::default().read(text);
+    let number = number.map_err(|mistake| mistake.to_string())?;
+    match number > 0.0 {
+        true => Ok(number),
+        false => Err("a number above 0 is needed".to_owned()),
+    }
 }
 
 /// Read columns by their numbers, counted from 1, or by their names.

@@ -36,6 +36,7 @@ mod parametric_curve;
 mod pivoted_cholesky;
 pub mod polygon_figures;
 mod polygon_kind;
+mod polyline;
 mod power_of_two;
 mod power_series;
 mod progress;
@@ -46,6 +47,7 @@ mod root;
 mod sampled_cusps;
 mod sampler;
 mod segment_expansion;
+mod spacing;
 mod tables;
 mod taylor_series;
 mod vector;
@@ -70,11 +72,13 @@ pub use nearest::Nearest;
 pub use parametric_curve::{EvenBatch, ParametricCurve};
 pub use polygon_figures::Range;
 pub use polygon_kind::PolygonKind;
+pub use polyline::{polyline_deviation, polyline_within};
 pub use progress::Progress;
 pub use rebuilding::{MAX_PART_SEGMENTS, MAX_SUBDIVISIONS};
 pub use sampled_cusps::sampled_cusps;
 pub use sampler::{BATCH_ORDER, Batch, Sampler};
 pub use segment_expansion::SegmentExpansion;
+pub use spacing::Spacing;
 pub use wording::{
     SMALL, coordinate, counted, figure, noun, rounded_up, significant, to_resolution,
     without_negative_zero,

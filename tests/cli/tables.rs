@@ -151,3 +151,120 @@ fn a_track_is_read_in_metres() {
         "out.gpx: GPX files can be read but not written: the formats that can be written are .batten, .csv, .dat, .txt, .xyz, .pts, .dxf",
     );
 }
+
+/// The number of points and the distance of the polyline that `batten points` tells.
+fn told(message: &str) -> (usize, f64) {
+    let line = message.lines().last().unwrap();
+    let words: Vec<&str> = line.split(' ').collect();
+    let within = words.iter().position(|word| *word == "within").unwrap();
+    (
+        words[1].parse().unwrap(),
+        words[within + 1].parse().unwrap(),
+    )
+}
+
+#[test]
+fn a_section_goes_back_to_its_solver() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/airfoils/ah6407.dat");
+    let folder = Folder::new().with("foil.dat", fs::read(path).unwrap());
+    folder.done(&[
+        "apply",
+        "fit",
+        "foil.dat",
+        "fair.batten",
+        "--tolerance",
+        "0.005",
+    ]);
+    for spacing in ["arc-length", "cosine", "parameter"] {
+        let arguments = [
+            "points",
+            "fair.batten",
+            "out.dat",
+            "--count",
+            "60+1",
+            "--spacing",
+            spacing,
+        ];
+        let (out, message) = folder.done(&arguments);
+        assert_eq!((out.as_str(), told(&message).0), ("", 61));
+        let text = fs::read_to_string(folder.path("out.dat")).unwrap();
+        assert_eq!(text.lines().next(), Some("AH-6-40-7 AIRFOIL"));
+        assert_eq!(rows(&text).len(), 61);
+        let (_, remarks) = folder.done(&["convert", "out.dat", "back.csv"]);
+        assert!(
+            remarks.contains("“AH-6-40-7 AIRFOIL”: an airfoil in Selig order"),
+            "{remarks}"
+        );
+    }
+    let mut counts = Vec::new();
+    for tolerance in ["1e-3", "1/10000", "1e-5"] {
+        let arguments = ["points", "fair.batten", "out.csv", "--tolerance", tolerance];
+        let (count, within) = told(&folder.done(&arguments).1);
+        let text = fs::read_to_string(folder.path("out.csv")).unwrap();
+        assert!(
+            text.starts_with("# name=AH-6-40-7 AIRFOIL\nx,y\n"),
+            "{text}"
+        );
+        assert_eq!(text.lines().count(), count + 2);
+        let bound = if tolerance == "1/10000" {
+            1e-4
+        } else {
+            tolerance.parse().unwrap()
+        };
+        assert!(
+            within <= bound && within > 0.3 * bound,
+            "{tolerance}: {within}"
+        );
+        counts.push(count);
+    }
+    assert!(
+        counts.is_sorted() && counts[2] > 5 * counts[0],
+        "{counts:?}"
+    );
+    // A tenth of the tolerance takes the root of ten times the points.
+    let ratio = counts[2] as f64 / counts[1] as f64;
+    assert!((ratio - 10_f64.sqrt()).abs() < 0.3, "{counts:?}");
+}
+
+#[test]
+fn points_need_a_number_or_a_tolerance_and_one_curve() {
+    let line =
+        |name: &str, y: f64| json!({"name": name, "degree": 1, "vertices": [[0, 0], [1, y]]});
+    let two = project(json!([line("a", 1.0), line("b", 2.0)]));
+    let folder = Folder::new().with("two.batten", two);
+    folder.done(&["example", "arc", "arc.batten"]);
+    let points = |more: &[&'static str]| [&["points", "two.batten", "out.dat"], more].concat();
+    folder.misused(&points(&[]), "--count <N>");
+    folder.misused(
+        &points(&["--count", "1"]),
+        "a whole number from 2 to 1000000",
+    );
+    folder.misused(
+        &points(&["--count", "2.5"]),
+        "a whole number from 2 to 1000000",
+    );
+    folder.misused(&points(&["--tolerance", "0"]), "a number above 0");
+    folder.misused(
+        &points(&["--tolerance", "1", "--count", "9"]),
+        "cannot be used with",
+    );
+    folder.refused(
+        &points(&["--count", "9"]),
+        "two.batten: choose one with --curve: there are “a”, “b”",
+    );
+    folder.done(&points(&["--count", "9", "--curve", "b"]));
+    folder.refused(
+        &["points", "arc.batten", "out.dat", "--tolerance", "1e-30"],
+        "arc.batten: “arc” would take more than 100 000 points within 1e-30: allow more",
+    );
+    // A reference has points too.
+    folder.done(&[
+        "points",
+        "out.dat",
+        "-",
+        "--to-format",
+        "csv",
+        "--count",
+        "3",
+    ]);
+}
