@@ -106,6 +106,7 @@ impl fmt::Display for ReadError {
         let continued = matches!(
             self.problem,
             Problem::Polygon(PolygonError::BadCoordinate { .. } | PolygonError::BadWeight { .. })
+                | Problem::FewerCoordinates { .. }
         );
         match (place.is_empty(), continued) {
             (true, _) => write!(formatter, "{}", self.problem),
@@ -166,6 +167,14 @@ pub enum Problem {
     /// The vertices do not make a curve.
     #[error("{0}")]
     Polygon(#[from] PolygonError),
+    /// A vertex or a point has 2 numbers where others have 3.
+    #[error("{what} {index} has 2 numbers where others have 3: give all of them as many")]
+    FewerCoordinates {
+        /// What it is: vertex or point.
+        what: &'static str,
+        /// The vertex or the point, counted from 0.
+        index: usize,
+    },
     /// A periodic curve is given by a polygon that has two ends.
     #[error(
         "a periodic curve cannot be given by its {kind} polygon, which starts and ends somewhere: give its float polygon, or make it open"

@@ -7,7 +7,7 @@ use super::error::{Place, Problem, ReadError};
 use super::loss::LossReport;
 use super::object::{Object, UnknownKeys, Version};
 use super::polygon::FilePolygon;
-use super::project_values::{ByName, Coordinates, Degree, Number};
+use super::project_values::{ByName, Coordinates, Degree, Number, points};
 use super::reading::{Owner, Remark, Remarks};
 use crate::document::{Colour, Curve, EndTargets};
 use crate::geometry::end_correction::EndTarget;
@@ -132,7 +132,7 @@ impl<V> Object<ProjectCurve<V>, V> {
         let polygon = FilePolygon {
             kind: value.polygon.0,
             degree: value.degree.0,
-            vertices: value.vertices.into_iter().map(DVec3::from).collect(),
+            vertices: points("vertex", value.vertices).map_err(place)?,
             weights: value.weights,
             periodic: value.periodic.unwrap_or(false),
         };

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{Place, Problem, ReadError};
 use super::object::Object;
-use super::project_values::{ByName, Coordinates};
+use super::project_values::{self, ByName, Coordinates};
 use crate::document::{Colour, Reference};
 use crate::geometry::references::{
     AnalyticForm, Formula, KINDS, Placement, PointList, ReferenceCurve, ReferenceError,
@@ -127,8 +127,7 @@ impl ProjectReference {
                 ReferenceForm::Formula(Formula::new(&x, &y, z.as_deref())?)
             }
             (None, None, Some(points)) => {
-                let points = points.into_iter().map(DVec3::from).collect();
-                ReferenceForm::Points(PointList::new(points)?)
+                ReferenceForm::Points(PointList::new(project_values::points("point", points)?)?)
             }
             _ => return Err(Problem::NoReference),
         };

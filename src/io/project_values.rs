@@ -6,6 +6,7 @@ use glam::DVec3;
 use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::error::Problem;
 use crate::document::{Colour, quoted};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{Continuity, End, MAX_DEGREE, PolygonKind};
@@ -175,6 +176,19 @@ impl Coordinates {
     pub(super) fn of(DVec3 { x, y, z }: DVec3, planar: bool) -> Self {
         let third = (!planar || z != 0.0).then_some(z);
         Self(x, y, third, ())
+    }
+}
+
+/// Take vertices or points, as `what` says, which have all 2 or all 3 numbers.
+///
+/// # Errors
+/// [`Problem::FewerCoordinates`] at the first that has fewer numbers than others.
+pub(super) fn points(what: &'static str, all: Vec<Coordinates>) -> Result<Vec<DVec3>, Problem> {
+    let lacks_third = |point: &Coordinates| point.2.is_none();
+    let lacking = all.iter().position(lacks_third);
+    match lacking.filter(|_| !all.iter().all(lacks_third)) {
+        Some(index) => Err(Problem::FewerCoordinates { what, index }),
+        None => Ok(all.into_iter().map(DVec3::from).collect()),
     }
 }
 

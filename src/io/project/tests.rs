@@ -98,7 +98,7 @@ fn what_others_write_is_read() {
         line("arc"),
     );
     check(
-        r#"{"degree":1.0,"polygon":"bezier","vertices":[[0,1,0],[2,3.5]],"weights":null,"more":null}"#,
+        r#"{"degree":1.0,"polygon":"bezier","vertices":[[0,1,0],[2,3.5,0]],"weights":null,"more":null}"#,
         line("curve 1"),
     );
     check(
@@ -271,6 +271,26 @@ fn content_of_the_wrong_kind_is_refused_with_its_place() {
     check_curve(
         r#"{"degree":1,"colour":"red"}"#,
         "line 2, column 27, curve 2: “red” is not a colour: one like #1f77b4 is needed",
+    );
+}
+
+#[test]
+fn a_vertex_with_fewer_numbers_than_others_is_refused() {
+    let check = |curves: &str, references: &str, expected: &str| {
+        let text = format!(
+            r#"{{"format":"batten","version":2,"curves":[{curves}],"references":[{references}]}}"#
+        );
+        assert_eq!(read(text.as_bytes()).unwrap_err().to_string(), expected);
+    };
+    check(
+        r#"{"name":"hull","degree":1,"vertices":[[0,0,1],[1,1,1],[2,0]]}"#,
+        "",
+        "curve 1 “hull”, vertex 2 has 2 numbers where others have 3: give all of them as many",
+    );
+    check(
+        "",
+        r#"{"name":"scan","points":[[0,0],[1,1,0],[2,0]]}"#,
+        "reference 1 “scan”, point 0 has 2 numbers where others have 3: give all of them as many",
     );
 }
 
