@@ -103,11 +103,14 @@ pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
 }
 
 impl Application {
-    /// Whether the arguments alone are at fault, whatever a file holds: nothing was read, or two parameters exclude
-    /// each other.
+    /// Whether the arguments alone are at fault, whatever a file holds: nothing was read, two parameters exclude
+    /// each other, or a direction has none.
     fn is_misused(&self, error: &OperationError) -> bool {
-        let excludes = matches!(error, OperationError::Exclude { .. });
-        excludes || (self.source.is_none() && *error != OperationError::Cancelled)
+        let is_of_arguments = matches!(
+            error,
+            OperationError::Exclude { .. } | OperationError::NoDirection { .. }
+        );
+        is_of_arguments || (self.source.is_none() && *error != OperationError::Cancelled)
     }
 
     /// What messages name as the place of an error.

@@ -245,8 +245,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
 /// The curve with its targets, changed by the values.
 ///
 /// # Errors
-/// [`OperationError::NoTarget`] without any target, [`EditError::BadTarget`], or
-/// [`EditError::MatchedEnd`].
+/// [`OperationError::NoTarget`] without any target, [`OperationError::NoDirection`],
+/// [`EditError::BadTarget`], or [`EditError::MatchedEnd`].
 fn with_targets(
     input: &Operands,
     id: CurveId,
@@ -255,6 +255,7 @@ fn with_targets(
 ) -> Result<Curve, OperationError> {
     let mut aimed = curve.clone();
     for (end, parameters) in [(End::Start, &START), (End::Finish, &FINISH)] {
+        parameters.check_directions(values)?;
         let target = parameters.target(curve, end, values);
         if target != curve.targets.get(end) {
             input.document().check_unmatched(id, end)?;
@@ -271,6 +272,18 @@ fn with_targets(
 }
 
 impl EndParameters {
+    /// Refuse directions of length 0.
+    fn check_directions(&self, values: &Values) -> Result<(), OperationError> {
+        let is_none = |parameter: &&Parameter| {
+            let numbers = values.list(parameter);
+            !numbers.is_empty() && numbers.iter().all(|number| *number == 0.0)
+        };
+        match [&self.direction, &self.normal].into_iter().find(is_none) {
+            Some(Parameter { label, .. }) => Err(OperationError::NoDirection { label }),
+            None => Ok(()),
+        }
+    }
+
     /// The target of an end, changed by the values. Without a target and a point the end keeps its
     /// point and direction.
     fn target(&self, curve: &Curve, end: End, values: &Values) -> Option<EndTarget> {

@@ -77,6 +77,12 @@ pub enum OperationError {
         /// The other, as it is shown.
         second: &'static str,
     },
+    /// A direction is a vector of length 0.
+    #[error("{label}: a vector of length 0 has no direction")]
+    NoDirection {
+        /// The parameter, as it is shown.
+        label: &'static str,
+    },
     /// There is no lower degree.
     #[error("the degree is 1 already, the lowest that there is")]
     LowestDegree,

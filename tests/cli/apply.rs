@@ -911,6 +911,20 @@ fn what_the_arguments_alone_get_wrong_is_told_with_the_usage_of_the_operation() 
         let usage = format!("Usage: batten apply {} ", arguments[1]);
         assert!(told.contains(&usage), "{told}");
     }
+    folder.done(&["example", "hull", "hull.batten"]);
+    for option in ["--start-direction", "--end-direction"] {
+        folder.misused(
+            &[
+                "apply",
+                "correct-ends",
+                "hull.batten",
+                "out.batten",
+                option,
+                "0,0",
+            ],
+            "direction: a vector of length 0 has no direction",
+        );
+    }
     folder.misused(
         &[
             "apply",
