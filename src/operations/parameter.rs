@@ -236,7 +236,11 @@ impl Parameter {
                 let curve = ReferenceCurve::from_text(text)?;
                 Some(Value::Reference(Some(Box::new(curve))))
             }
-            Kind::Whole { .. } => text.parse().ok().map(Value::Whole),
+            Kind::Whole { .. } => {
+                let number = self.number(0, text)?;
+                let is_whole = number >= 0.0 && number.fract() == 0.0;
+                is_whole.then_some(Value::Whole(number as usize))
+            }
             Kind::Real { .. } => Some(Value::Real(quantity.stored(self.number(0, text)?))),
             Kind::Choice { options, .. } => {
                 let mut names = options.iter().map(|option| option.name);

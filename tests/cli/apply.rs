@@ -945,6 +945,26 @@ fn what_the_arguments_alone_get_wrong_is_told_with_the_usage_of_the_operation() 
 }
 
 #[test]
+fn whole_numbers_take_arithmetic() {
+    let folder = Folder::new();
+    let degree = |text: &'static str| {
+        [
+            "apply",
+            "approximate",
+            "circle",
+            "out.batten",
+            "--degree",
+            text,
+        ]
+    };
+    folder.done(&degree("2+3"));
+    assert_eq!(curves(&folder, "out.batten")[0]["degree"], 5);
+    folder.misused(&degree("5/2"), "Degree: a whole number, 1 to 25 is needed");
+    folder.misused(&degree("5-6"), "Degree: a whole number, 1 to 25 is needed");
+    folder.misused(&degree("2+"), "column 3");
+}
+
+#[test]
 fn a_cusp_is_said_in_the_report_and_places_are_exact() {
     let folder = Folder::new();
     let cusp = [
