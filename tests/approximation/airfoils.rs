@@ -4,9 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use batten::geometry::Progress;
+use batten::geometry::basis::uniform_basis_derivative;
+use batten::geometry::fairing::harmonising::{Harmony, Held, harmonise};
 use batten::geometry::fitting::{Extrema, Fitted, PlaneFit, fit_plane};
+use batten::geometry::{FloatPolygon, Progress};
 use glam::DVec2;
+use nalgebra::DMatrix;
 
 /// The degree of all fits.
 const DEGREE: usize = 5;
@@ -291,5 +294,99 @@ fn all_wishes_of_all_sections() {
             median(times.clone()),
             times.iter().fold(0.0, |most: f64, it| most.max(*it)),
         );
+    }
+}
+
+/// A float polygon near points without conditions: least squares with a little of third differences, and
+/// parameters of the nearest points.
+fn unconditioned(points: &[DVec2], count: usize) -> Vec<DVec2> {
+    const ROUNDS: usize = 6;
+    let segments = (count - DEGREE) as f64;
+    let chords = points
+        .windows(2)
+        .map(|pair| pair[0].distance(pair[1]).sqrt());
+    let mut places = vec![0.0];
+    for chord in chords {
+        places.push(places[places.len() - 1] + chord);
+    }
+    let all = places[places.len() - 1];
+    let mut places: Vec<f64> = places.iter().map(|it| it * segments / all).collect();
+    let mut vertices = Vec::new();
+    for _ in 0..ROUNDS {
+        let rows = points.len() + count - 3;
+        let mut matrix = DMatrix::<f64>::zeros(rows, count);
+        let mut right = DMatrix::<f64>::zeros(rows, 2);
+        for (row, (point, u)) in points.iter().zip(&places).enumerate() {
+            let first = (*u as usize).min(count - DEGREE - 1);
+            for (k, value) in uniform_basis_derivative(DEGREE, 0, u - first as f64)
+                .into_iter()
+                .enumerate()
+            {
+                matrix[(row, first + k)] = value;
+            }
+            (right[(row, 0)], right[(row, 1)]) = (point.x, point.y);
+        }
+        let fair = (1e-4 * points.len() as f64 / count as f64).sqrt();
+        for first in 0..count - 3 {
+            for (k, factor) in [-1.0, 3.0, -3.0, 1.0].into_iter().enumerate() {
+                matrix[(points.len() + first, first + k)] = fair * factor;
+            }
+        }
+        let solved = matrix
+            .svd(true, true)
+            .solve(&right, 1e-14)
+            .expect("a solution");
+        vertices = (0..count)
+            .map(|it| DVec2::new(solved[(it, 0)], solved[(it, 1)]))
+            .collect();
+        for (point, u) in points.iter().zip(&mut places) {
+            let near = (0..=80).map(|it| (*u + (it - 40) as f64 / 80.0).clamp(0.0, segments));
+            let off = |u: &f64| de_boor(&vertices, DEGREE, *u).distance(*point);
+            let best = near.min_by(|a, b| off(a).total_cmp(&off(b)));
+            *u = best.unwrap_or(*u);
+        }
+        places[0] = 0.0;
+        let last = places.len() - 1;
+        places[last] = segments;
+    }
+    vertices
+}
+
+#[test]
+fn polygons_of_sections_are_harmonised_with_their_ends() {
+    for (extrema, limit) in [(1, 1.2e-3), (3, 6e-4)] {
+        let moves = files(&folder()).into_iter().map(|(name, points)| {
+            let vertices = unconditioned(&points, 24);
+            let pairs: Vec<(f64, f64)> = vertices.iter().map(|it| (it.x, it.y)).collect();
+            let polygon = FloatPolygon::planar(DEGREE, &pairs).expect("a polygon");
+            let harmony = Harmony {
+                stretch: None,
+                ends: [Held::Position; 2],
+                locked: &[],
+                extrema: Some(extrema),
+                inflections: None,
+                torsion_extrema: None,
+                largest_deviation: Some(0.05 * polygon.size()),
+            };
+            let found = harmonise(&polygon, &harmony, &Progress::default()).expect("a result");
+            assert!(found.reached, "{name}: {extrema}");
+            let after = found
+                .polygon
+                .vertices()
+                .iter()
+                .map(|vertex| vertex.truncate());
+            let after: Vec<DVec2> = after.collect();
+            let end = polygon.segments() as f64;
+            for u in [0.0, end] {
+                let [before, after] = [&vertices, &after].map(|it| de_boor(it, DEGREE, u));
+                assert!(before.distance(after) < 1e-9, "{name}");
+            }
+            let samples = (0..=400).map(|it| de_boor(&vertices, DEGREE, end * it as f64 / 400.0));
+            let seen = look_at(&samples.collect::<Vec<DVec2>>(), &after);
+            assert_eq!(seen.extrema, extrema, "{name}");
+            seen.largest
+        });
+        let median = median(moves.collect());
+        assert!(median <= limit, "{extrema} extrema: {median}");
     }
 }

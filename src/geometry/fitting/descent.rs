@@ -453,9 +453,7 @@ impl Descent<'_> {
         for _ in 0..RESTORATIONS {
             let scales = self.scales(&now.start.curve.vertices);
             let equations = end_equations(self.problem, &now.start.curve.vertices, &scales);
-            let held = equations
-                .iter()
-                .all(|(_, missed)| missed.abs() < END_GOAL);
+            let held = equations.iter().all(|(_, missed)| missed.abs() < END_GOAL);
             if held && now.conditions.hold() {
                 return true;
             }
