@@ -430,8 +430,8 @@ impl Layout {
     ) -> Result<Found, Problem> {
         let most = self.count.max(self.named);
         let length = fields.values.len();
-        let fits = length == self.count || length == self.named;
-        if !fits && !(length < most && fields.width >= most) {
+        let is_padded = length < most && fields.width >= most;
+        if ![self.count, self.named].contains(&length) && !is_padded {
             return Ok(Found::Text);
         }
         let text = |place: &usize| fields.values.get(*place).map_or("", |text| text.as_ref());
