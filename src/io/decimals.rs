@@ -42,10 +42,14 @@ impl Decimals {
             Some(DecimalMark::Comma) => text.replacen(',', ".", 1).parse().ok(),
             _ => text.parse().ok(),
         };
-        let value = value.ok_or_else(|| Problem::NotANumber {
-            column,
-            text: text.to_owned(),
-        })?;
+        // Fortran writes the exponents of doubles as 1.0D-03.
+        let of_fortran = || text.replacen(['d', 'D'], "e", 1).parse().ok();
+        let value = value
+            .or_else(of_fortran)
+            .ok_or_else(|| Problem::NotANumber {
+                column,
+                text: text.to_owned(),
+            })?;
         if !value.is_finite() {
             return Err(Problem::NotFinite(text.to_owned()));
         }
@@ -95,7 +99,8 @@ pub(super) fn is_number(text: &str) -> bool {
 
 /// Whether a number is written with a digit other than 0 before its exponent.
 fn has_digits(text: &str) -> bool {
-    let digits = text.split(['e', 'E']).next().unwrap_or_default();
+    let digits = text.split(['e', 'E', 'd', 'D']).next();
+    let digits = digits.unwrap_or_default();
     digits.bytes().any(|digit| (b'1'..=b'9').contains(&digit))
 }
 

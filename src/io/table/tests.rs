@@ -421,6 +421,7 @@ fn tables_of_other_programs_hold_points_with_titles_and_other_columns() {
         "wing root",
         "read with tabs between columns",
     );
+    check("0.0D+00 1.5d0\n2.25D0 -3\n.4D1 5\n", "points 1", "");
     check(
         "0 1,5\n2,25 -3\n4 5\n",
         "points 1",
