@@ -2,13 +2,13 @@
 
 use std::fmt::Write;
 
-use batten::geometry::approximation::{FitRequest, fit_points};
+use batten::geometry::approximation::FitRequest;
 use batten::geometry::features::Features;
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{Differentiable, Progress};
 
 use crate::common::Random;
-use crate::fits::{BY_NOISE, noisy};
+use crate::fits::{BY_NOISE, fit_points, noisy};
 
 /// By how much the errors of a fit may exceed those of the nearest with as many vertices, or the noise.
 const BY_ANY: f64 = 1.3;

@@ -26,6 +26,12 @@ const NOISE: f64 = 3.0;
 const MOST_VERTICES: [usize; 2] = [40, 80];
 const POINTS_A_VERTEX: usize = 2;
 
+/// Points that are off by no more than this, of a size of 1 or less, are met.
+const EXACT: f64 = 1e-11;
+
+/// Points beyond the extrema of their discrete curvature.
+const OUTER: usize = 4;
+
 /// The most extrema that are tried.
 const MOST_EXTREMA: usize = 40;
 
@@ -193,6 +199,16 @@ impl Prepared {
             let points = found;
             return Err(FitError::TooManyVertices { count, points });
         }
+        if let Extrema::Exactly(extrema) = asked.extrema
+            && extrema + OUTER > found
+        {
+            return Err(FitError::TooManyExtrema {
+                extrema,
+                count: found,
+                of: "points",
+                needed: extrema + OUTER,
+            });
+        }
         let scaled: Vec<DVec2> = numbers
             .iter()
             .map(|index| (points[*index] - middle) / unit)
@@ -290,6 +306,9 @@ impl Fit<'_> {
     /// The best fit, what each number of extrema reaches, and the fewest that keep the tolerance where the number
     /// asked for does not.
     fn found(&self) -> (Option<Level>, Vec<TradeOff>, Option<usize>) {
+        if let Some(exact) = self.exact() {
+            return (Some(exact), Vec::new(), None);
+        }
         let Extrema::Exactly(extrema) = self.asked.extrema else {
             let (level, trade_off) = self.fewest();
             return (level, trade_off, None);
@@ -306,6 +325,32 @@ impl Fit<'_> {
         let fair = fair.filter(|fair| fair.largest <= tolerance);
         let least = fair.map(|fair| fair.start.slopes.cuts.len());
         (level, all, least)
+    }
+
+    /// The curve of least squares if it meets the points, as one with as many vertices as points or a straight
+    /// line does, and has the features asked for.
+    fn exact(&self) -> Option<Level> {
+        let mut level = self.task(0, None).smoothed()?;
+        if level.largest > EXACT || !self.prepared.ends.is_empty() {
+            return None;
+        }
+        let features = Features::proved(&level.polygon()?, |_| !self.progress.is_cancelled())?;
+        let [extrema, inflections] =
+            [Feature::CurvatureExtremum, Feature::Inflection].map(|it| features.count(it));
+        let suits = match self.asked.extrema {
+            Extrema::Exactly(asked) => extrema == asked && features.undecided.is_empty(),
+            // Another one may have fewer.
+            Extrema::Fewest => {
+                extrema == 0
+                    || self
+                        .asked
+                        .count
+                        .is_some_and(|it| it >= self.prepared.counting)
+            }
+        };
+        let bends = self.asked.inflections;
+        level.holds = suits && bends.is_none_or(|asked| asked == inflections);
+        level.holds.then_some(level)
     }
 
     /// The nearest fit with just so many extrema.

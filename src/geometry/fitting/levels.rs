@@ -193,9 +193,22 @@ impl<'a> Task<'a> {
 
     /// The fit with any number of extrema: least squares with a little fairness.
     pub(super) fn smoothed(&self) -> Option<Level> {
-        let problem = self.problem(self.count.unwrap_or(self.most));
+        let count = self.count.unwrap_or(self.most);
+        // As many vertices as points meet them, so that the light ones must not count.
+        let heavy = self.data.without_light();
+        let meets = count >= heavy.iter().filter(|weight| **weight > 0.0).count();
+        let weights = if meets { &heavy } else { self.data.weights };
+        let problem = Problem::new(
+            Data {
+                weights,
+                ..self.data
+            },
+            self.splines(count),
+            self.tables,
+        );
         let curves = STARTS.iter().filter_map(|(bend, fair)| {
-            let curve = problem.smoothed(self.first_places(&problem, *bend), *fair, ROUNDS)?;
+            let (fair, rounds) = if meets { (0.0, 1) } else { (*fair, ROUNDS) };
+            let curve = problem.smoothed(self.first_places(&problem, *bend), fair, rounds)?;
             let [rms, largest] = problem.errors(&curve);
             let slopes = SignRuns {
                 begins_positive: true,
@@ -224,12 +237,15 @@ impl<'a> Task<'a> {
     }
 
     fn problem(&self, count: usize) -> Problem<'a> {
-        let splines = Splines {
+        Problem::new(self.data, self.splines(count), self.tables)
+    }
+
+    fn splines(&self, count: usize) -> Splines {
+        Splines {
             degree: self.degree,
             count,
             periodic: self.periodic,
-        };
-        Problem::new(self.data, splines, self.tables)
+        }
     }
 
     /// The best fit found with one number of vertices.

@@ -23,7 +23,10 @@ const SAMPLES: usize = 6;
 const FAIR_RESAMPLED: f64 = 1e-10;
 
 /// The share of the mean diagonal that keeps an equation regular.
-const REGULAR: f64 = 1e-13;
+const REGULAR: f64 = 1e-15;
+
+/// Solutions of an equation, each for what the one before misses.
+const ROUNDS: usize = 4;
 
 /// A condition at an end of an open curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +54,14 @@ pub(super) struct Data<'a> {
     pub(super) points: &'a [DVec2],
     pub(super) weights: &'a [f64],
     pub(super) ends: &'a [EndCondition],
+}
+
+impl Data<'_> {
+    /// The weights, with 0 for those of points that do not count.
+    pub(super) fn without_light(&self) -> Vec<f64> {
+        let counting = |weight: &f64| if *weight < COUNTING { 0.0 } else { *weight };
+        self.weights.iter().map(counting).collect()
+    }
 }
 
 /// The fit of splines with one number of vertices.
@@ -151,29 +162,46 @@ impl<'a> Problem<'a> {
     fn least_squares(&self, places: &[f64], data: Data, fair: f64) -> Option<Vec<DVec2>> {
         let splines = &self.splines;
         let mut rows = [Rows::new(splines.degree + 1), Rows::new(splines.degree + 1)];
-        let mut right = vec![0.0; self.layout.unknowns()];
-        for (u, (point, weight)) in places.iter().zip(data.points.iter().zip(data.weights)) {
+        for u in places {
             let (segment, basis) = splines.basis(*u);
             for (axis, rows) in rows.iter_mut().enumerate() {
                 rows.push(segment, interleaved(&basis, splines.degree, axis));
-                for (k, value) in basis.iter().enumerate().take(splines.degree + 1) {
-                    let unknown = self.layout.unknown(segment + k) + axis;
-                    right[unknown] += weight * value * point[axis];
-                }
             }
         }
-        let mut matrix = BandMatrix::new(&self.layout);
-        for rows in &rows {
-            self.layout.add_squares(rows, data.weights, &mut matrix);
-        }
         let differences = self.third_differences();
-        for rows in &differences {
-            let weights = vec![fair; rows.firsts.len()];
-            self.layout.add_squares(rows, &weights, &mut matrix);
+        let fair = vec![fair; differences[0].firsts.len()];
+        let mut matrix = BandMatrix::new(&self.layout);
+        for (rows, differences) in rows.iter().zip(&differences) {
+            self.layout.add_squares(rows, data.weights, &mut matrix);
+            self.layout.add_squares(differences, &fair, &mut matrix);
         }
         let trace: f64 = matrix.diagonal().sum();
         matrix.add_to_diagonal(REGULAR * trace);
-        let solved = matrix.factor()?.solve(&right);
+        let factor = matrix.factor()?;
+        let mut solved = vec![0.0; self.layout.unknowns()];
+        // Later rounds give back what the larger diagonal took.
+        for _ in 0..ROUNDS {
+            let mut missing = vec![0.0; solved.len()];
+            for (axis, (rows, differences)) in rows.iter().zip(&differences).enumerate() {
+                let reached = self.layout.times(rows, &solved);
+                let offsets = data.points.iter().zip(reached).zip(data.weights);
+                let offsets =
+                    offsets.map(|((point, reached), weight)| weight * (point[axis] - reached));
+                let offsets: Vec<f64> = offsets.collect();
+                self.layout.add_transposed(rows, &offsets, &mut missing);
+                let unfair = self
+                    .layout
+                    .times(differences, &solved)
+                    .into_iter()
+                    .zip(&fair);
+                let unfair: Vec<f64> = unfair.map(|(it, weight)| -weight * it).collect();
+                self.layout
+                    .add_transposed(differences, &unfair, &mut missing);
+            }
+            for (value, correction) in solved.iter_mut().zip(factor.solve(&missing)) {
+                *value += correction;
+            }
+        }
         let vertex = |vertex: usize| {
             let unknown = self.layout.unknown(vertex);
             DVec2::new(solved[unknown], solved[unknown + 1])
