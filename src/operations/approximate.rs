@@ -17,6 +17,7 @@ use crate::geometry::approximation::{
     Approximated, ApproximationRequest, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing,
     Watched, approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
+use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{
     Differentiable, FloatPolygon, MAX_DEGREE, Progress, sampled_cusps, significant,
@@ -260,8 +261,18 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     remarks.extend(remark_on_corrections(&found));
     remarks.extend(remark_on_cusps(&source, found.interval));
     remarks.extend(remark_on_quasi(&found, nearer));
+    let id = match source {
+        Source::Reference(_) => input.document().next_id(),
+        Source::Curve(_) => input.curve()?.0,
+    };
+    let limit = tolerance.map(|most| Requirement::Limit {
+        found: found.distance(),
+        most,
+    });
+    let differs = tolerance.is_some() && !found.is_equivalent();
+    let differs = differs.then_some(Requirement::Failed { left: None });
     Ok(Outcome {
-        reached: tolerance.is_none_or(|tolerance| found.meets(tolerance)),
+        requirements: vec![(id, limit.into_iter().chain(differs).collect())],
         figures: figures(&found),
         annotations,
         equivalence: Some(found.levels),

@@ -17,6 +17,7 @@ use super::value::Value;
 use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::between::{BetweenError, Ends, Segment, SegmentKind, between};
+use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Verdict;
 use crate::geometry::parameters::{Number, Quantity};
 use crate::geometry::references::ReferenceForm;
@@ -214,10 +215,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             return Err(error.into());
         }
         Err(error) => {
-            let mut outcome = Outcome::unchanged(Deviation::Unmeasured);
-            outcome.reached = false;
-            outcome.remarks = vec![capitalised(&error.to_string())];
-            outcome
+            let failed = Requirement::Failed { left: None };
+            Outcome {
+                requirements: vec![(input.document().next_id(), vec![failed])],
+                remarks: vec![capitalised(&error.to_string())],
+                ..Outcome::unchanged(Deviation::Unmeasured)
+            }
         }
     };
     outcome.annotations = annotations(&ends);
@@ -232,8 +235,7 @@ fn made(input: &Operands, segment: &Segment) -> Outcome {
         [] => Deviation::Exact,
         _ => Deviation::Measured(segment.deviation),
     });
-    outcome.reached = segment.is_reached();
-    outcome.residual = Some(segment.residual);
+    outcome.requirements = vec![(input.document().next_id(), segment.requirements.clone())];
     let name = input.document().free_name("segment 1");
     let curve = Curve::new(name, segment.polygon.clone());
     outcome.edits = vec![Edit::Add(Box::new(curve))];

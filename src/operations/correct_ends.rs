@@ -5,7 +5,7 @@ use std::ops::Bound;
 use glam::DVec3;
 
 use super::amount::Amount;
-use super::editable::open;
+use super::editable::{check_measurable, open};
 use super::error::OperationError;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, locked};
@@ -13,11 +13,12 @@ use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, Parameter};
-use super::targets::{annotations, corrected, cusp, residual};
+use super::targets::{SHARE_OF_SIZE, annotations, corrected, cusp, place_of, residual};
 use super::values::Values;
 use crate::document::{Curve, CurveId, EditError};
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
 use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
+use crate::geometry::fairing::requirement::{Check, Requirement};
 use crate::geometry::parameters::{Number, Quantity};
 use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
 
@@ -25,9 +26,6 @@ use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 const ROUNDING_LEAVES_MORE: &str = "Rounding leaves more than the tolerance: allow more";
-
-/// The tolerance that is offered, in units of the polygon's size.
-const SHARE_OF_SIZE: f64 = 1e-9;
 
 const METHOD: Parameter = Parameter {
     name: "method",
@@ -188,7 +186,7 @@ pub static OPERATION: Operation = Operation {
         LOCKED,
         TOLERANCE,
     ],
-    check: |input| open(input, "corrected at its ends").map(drop),
+    check: |input| check_measurable(open(input, "corrected at its ends")?),
     unused: |_| &[],
     run,
 };
@@ -207,10 +205,17 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let (id, curve) = input.curve()?;
     let curve = &with_targets(input, id, curve, values)?;
     let tolerance = values.real(&TOLERANCE);
-    let correction = if values.choice(&METHOD, &[true, false]) {
-        at_once(curve, values, tolerance, progress)?
-    } else {
-        step_by_step(curve, values, tolerance)?
+    let both = values.choice(&METHOD, &[true, false]);
+    let requirements = requirements(curve, values, both, tolerance)?;
+    let is_met = |polygon: &FloatPolygon| {
+        Check::of(&requirements, polygon, progress).is_some_and(|check| check.holds)
+    };
+    let correction = match both {
+        true => at_once(curve, values, &is_met, progress)?,
+        false => step_by_step(curve, values, &is_met, tolerance)?,
+    };
+    let failed = Requirement::Failed {
+        left: Some(correction.residual),
     };
     let mut outcome = match correction.polygon {
         Some(polygon) if polygon == curve.polygon => {
@@ -219,20 +224,21 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             outcome
         }
         Some(polygon) => corrected(id, curve, polygon)?,
-        None => {
-            let mut outcome = Outcome::unchanged(Deviation::Exact);
-            outcome.reached = false;
-            outcome.remarks = vec![correction.reason];
-            outcome
-        }
+        None => Outcome {
+            requirements: vec![(id, vec![failed])],
+            remarks: vec![correction.reason],
+            ..Outcome::unchanged(Deviation::Exact)
+        },
     };
+    if outcome.requirements.is_empty() {
+        outcome.requirements = vec![(id, requirements)];
+    }
     let negative = |(_, target): &(End, EndTarget)| target.curvature.is_some_and(|it| it < 0.0);
     if !curve.polygon.is_planar() && curve.targets.list().iter().any(negative) {
         outcome
             .remarks
             .push("In space the curvature has no sign: its magnitude counts".to_owned());
     }
-    outcome.residual = Some(correction.residual);
     let passes = correction.passes;
     outcome.figures = vec![
         Figure::count("passes", "Passes", passes),
@@ -240,6 +246,35 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     ];
     outcome.annotations = End::BOTH.map(|end| annotations(curve, end)).concat();
     Ok(outcome)
+}
+
+/// What must hold: the targets, the other end at its point and in its direction if both are corrected at once, and
+/// the locked vertices.
+fn requirements(
+    curve: &Curve,
+    values: &Values,
+    both: bool,
+    tolerance: f64,
+) -> Result<Vec<Requirement>, OperationError> {
+    let polygon = &curve.polygon;
+    let targets = match both {
+        true => targets(curve).to_vec(),
+        false => curve.targets.list(),
+    };
+    let places = targets.into_iter();
+    let places = places.map(|(end, target)| place_of(polygon, end, target, tolerance));
+    let vertices = locked(curve, values)?.into_iter();
+    let vertices = vertices.map(|vertex| Requirement::Vertex {
+        vertex,
+        point: polygon.vertex(vertex),
+    });
+    Ok(places.chain(vertices).collect())
+}
+
+/// The targets of both ends. An end without one keeps its point and direction.
+fn targets(curve: &Curve) -> [(End, EndTarget); 2] {
+    let kept = |end: End| EndTarget::keeping(&curve.polygon.end_jet(end));
+    End::BOTH.map(|end| (end, curve.targets.get(end).unwrap_or_else(|| kept(end))))
 }
 
 /// The curve with its targets, changed by the values.
@@ -321,13 +356,11 @@ impl EndParameters {
 fn at_once(
     curve: &Curve,
     values: &Values,
-    tolerance: f64,
+    is_met: &dyn Fn(&FloatPolygon) -> bool,
     progress: &Progress,
 ) -> Result<Correction, OperationError> {
-    let kept = |end: End| EndTarget::keeping(&curve.polygon.end_jet(end));
-    let targets = End::BOTH.map(|end| (end, curve.targets.get(end).unwrap_or_else(|| kept(end))));
     let locked = locked(curve, values)?;
-    if residual(curve, &curve.polygon) <= tolerance {
+    if is_met(&curve.polygon) {
         return Ok(Correction {
             polygon: Some(curve.polygon.clone()),
             residual: residual(curve, &curve.polygon),
@@ -342,10 +375,11 @@ fn at_once(
         Disturbance::Harmony,
     ];
     let disturbance = values.choice(&ORDER, &disturbances);
+    let targets = targets(curve);
     match correct_jointly(&curve.polygon, &targets, disturbance, &locked, progress) {
         Ok(joint) => Ok(Correction {
             residual: joint.residual,
-            polygon: Some(joint.polygon).filter(|_| joint.residual <= tolerance),
+            polygon: Some(joint.polygon).filter(is_met),
             passes: joint.steps,
             reason: ROUNDING_LEAVES_MORE.to_owned(),
         }),
@@ -364,6 +398,7 @@ fn at_once(
 fn step_by_step(
     curve: &Curve,
     values: &Values,
+    is_met: &dyn Fn(&FloatPolygon) -> bool,
     tolerance: f64,
 ) -> Result<Correction, OperationError> {
     let locked = locked(curve, values)?;
@@ -379,12 +414,12 @@ fn step_by_step(
         )),
         None => cusp(curve, &outcome.polygon),
     };
-    let reached = outcome.converged && refused.is_none();
+    let settled = outcome.converged && refused.is_none() && is_met(&outcome.polygon);
     Ok(Correction {
         residual,
         passes,
         reason: refused.unwrap_or_else(|| why_not(curve, passes, residual)),
-        polygon: Some(outcome.polygon).filter(|_| reached),
+        polygon: Some(outcome.polygon).filter(|_| settled),
     })
 }
 

@@ -5,6 +5,9 @@ use super::operands::Operands;
 use crate::document::Curve;
 use crate::geometry::PolygonError;
 
+/// The least size of curves that are corrected: cubes of it are in the range of numbers.
+const LEAST_SIZE: f64 = 1e-100;
+
 /// Refuse a curve that is locked or hidden.
 ///
 /// # Errors
@@ -36,6 +39,19 @@ pub(super) fn open_of(curve: &Curve, done: &'static str) -> Result<(), Operation
         return Err(PolygonError::PeriodicCurve { done }.into());
     }
     Ok(())
+}
+
+/// Refuse a curve of which products of derivatives would be below the range of numbers: whether conditions hold
+/// could not be told.
+///
+/// # Errors
+/// [`OperationError::TooSmall`].
+pub(super) fn check_measurable(curve: &Curve) -> Result<(), OperationError> {
+    let size = curve.polygon.size();
+    match size > 0.0 && size < LEAST_SIZE {
+        true => Err(OperationError::TooSmall { size }),
+        false => Ok(()),
+    }
 }
 
 /// The curve, if it is neither locked nor hidden.

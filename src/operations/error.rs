@@ -92,6 +92,12 @@ pub enum OperationError {
         /// The degree.
         degree: usize,
     },
+    /// The curve is too small to be computed with.
+    #[error("the curve is {size:e} in size: scale it up first")]
+    TooSmall {
+        /// Its size.
+        size: f64,
+    },
     /// No end has a target, or not the one that was chosen.
     #[error("{}", no_target(*.end))]
     NoTarget {

@@ -12,12 +12,16 @@ use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
+use super::targets::{SHARE_OF_SIZE, place_of};
 use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{FitRequest, fit_points};
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::fairing::counts::CountRequest;
+use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::fitting::{Extrema, FitError, Fitted, PlaneFit, corners, fit_plane};
 use crate::geometry::parameters::{OutOfRange, Quantity};
-use crate::geometry::{MAX_DEGREE, Progress, counted, significant};
+use crate::geometry::{End, MAX_DEGREE, Progress, counted, significant};
 
 /// The time that a search has, in seconds.
 const TIME: f64 = 10.0;
@@ -232,9 +236,28 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         last: bounds[1],
         is_outer: [bounds[0] == 0, bounds[1] + 1 == points.len()],
     });
-    let fitted = pieces.map(|piece| piece.fit(&points, &asked, &progress));
-    let fitted: Vec<Fitted> = fitted.collect::<Result<_, _>>()?;
-    Ok(outcome(input, values, &asked, &fitted, &corners))
+    let pieces: Vec<Piece> = pieces.collect();
+    let fitted = pieces
+        .iter()
+        .map(|piece| piece.fit(&points, &asked, &progress));
+    let (requests, fitted): (Vec<PlaneFit>, Vec<Fitted>) =
+        fitted.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+    let requirements = pieces.iter().zip(&requests).zip(&fitted);
+    let requirements =
+        requirements.map(|((piece, asked), found)| piece.requirements(&points, asked, found));
+    let ids = input.document().next_ids();
+    Ok(Outcome {
+        requirements: ids.zip(requirements).collect(),
+        ..outcome(input, values, &asked, &fitted, &corners)
+    })
+}
+
+/// Require numbers of features, if there are any asked for.
+fn features(extrema: Option<usize>, inflections: Option<usize>) -> Option<Requirement> {
+    extrema.or(inflections).map(|_| Requirement::Features {
+        stretch: None,
+        request: CountRequest::exactly([inflections, extrema, None]),
+    })
 }
 
 /// The points of one curve.
@@ -252,7 +275,7 @@ impl Piece {
         points: &[DVec2],
         asked: &PlaneFit,
         progress: &Progress,
-    ) -> Result<Fitted, OperationError> {
+    ) -> Result<(PlaneFit, Fitted), OperationError> {
         let ends = [0, 1].map(|end| !self.is_outer[end] || asked.exact_ends[end]);
         let outer = self.is_outer;
         let own = |numbers: &Vec<usize>| {
@@ -279,7 +302,50 @@ impl Piece {
         for repeated in &mut found.repeated {
             *repeated += self.first;
         }
-        Ok(found)
+        Ok((asked, found))
+    }
+
+    /// What the curve must hold: its features, its ends and the tolerance.
+    fn requirements(&self, points: &[DVec2], asked: &PlaneFit, found: &Fitted) -> Vec<Requirement> {
+        let extrema = match asked.extrema {
+            Extrema::Exactly(extrema) => Some(extrema),
+            Extrema::Fewest => None,
+        };
+        let features = features(extrema, asked.inflections);
+        let polygon = &found.polygon;
+        let counts = |index: &usize| found.outliers.iter().all(|(outlier, _)| outlier != index);
+        let mut counting = (self.first..=self.last).filter(counts);
+        let outer = [counting.next(), counting.next_back()];
+        let place = |(index, end): (usize, End)| {
+            let point = outer[index].filter(|_| asked.exact_ends[index]);
+            let point = point.and_then(|point| points.get(point));
+            let [direction, curvature] = [
+                asked.directions[index].is_some(),
+                asked.curvatures[index].is_some(),
+            ];
+            let target = EndTarget {
+                point: point.map_or(polygon.end_jet(end).point, |point| point.extend(0.0)),
+                direction: asked.directions[index].map(|direction| direction.extend(0.0)),
+                curvature: asked.curvatures[index],
+                ..EndTarget::default()
+            };
+            let tolerance = SHARE_OF_SIZE * polygon.size();
+            let asks = point.is_some() || direction || curvature;
+            asks.then(|| place_of(polygon, end, target, tolerance))
+        };
+        let places = End::BOTH.into_iter().enumerate().filter_map(place);
+        let limit = asked.tolerance.map(|most| Requirement::Limit {
+            found: found.deviation,
+            most,
+        });
+        let failed = (!found.holds).then_some(Requirement::Failed { left: None });
+        let places = places.filter(|_| !asked.periodic);
+        features
+            .into_iter()
+            .chain(places)
+            .chain(limit)
+            .chain(failed)
+            .collect()
     }
 }
 
@@ -377,19 +443,12 @@ fn outcome(
         ));
     }
     Outcome {
-        reached: fitted.iter().all(|found| is_reached(asked, found)),
         edits: curves.collect(),
         figures: figures(fitted),
         remarks,
         annotations: marked.map(|point| Annotation::Point(*point)).collect(),
         ..Outcome::unchanged(Deviation::FromPoints(worst(|found| found.deviation)))
     }
-}
-
-/// Whether extrema, ends and tolerance are as asked for.
-fn is_reached(asked: &PlaneFit, found: &Fitted) -> bool {
-    let near = |tolerance: f64| found.deviation <= tolerance;
-    found.holds && asked.tolerance.is_none_or(near)
 }
 
 fn figures(fitted: &[Fitted]) -> Vec<Figure> {
@@ -535,10 +594,16 @@ fn in_space(
     if !ignored.is_empty() {
         remarks.push(format!("Of planar points alone: {}", ignored.join(", ")));
     }
+    let features = features(asked.extrema, None);
+    let limit = asked.tolerance.map(|most| Requirement::Limit {
+        found: found.largest,
+        most,
+    });
+    let requirements = features.into_iter().chain(limit).collect();
     let name = input.document().free_name("fit");
     let marked = found.outliers.iter().filter_map(|index| points.get(*index));
     Ok(Outcome {
-        reached: found.reached,
+        requirements: vec![(input.document().next_id(), requirements)],
         edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
         figures: vec![
             Figure::count("vertices", "Vertices", found.polygon.vertices().len()),

@@ -2,7 +2,7 @@
 
 use std::ops::Bound;
 
-use super::editable::{check_editable, editable};
+use super::editable::{check_measurable, editable};
 use super::error::OperationError;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, given_count, locked};
@@ -131,7 +131,7 @@ pub static OPERATION: Operation = Operation {
         MAX_DEVIATION,
         LOCKED,
     ],
-    check: check_editable,
+    check: |input| check_measurable(editable(input)?),
     unused: |_| &[],
     run,
 };
@@ -179,7 +179,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         };
         Outcome::reshaped(id, found.polygon.clone(), deviation)
     };
-    outcome.reached = found.reached;
+    outcome.requirements = vec![(id, found.requirements.clone())];
     if !found.reached {
         outcome.remarks = vec![why_not(&found, &harmony)];
     }

@@ -104,8 +104,9 @@ impl Operation {
 
     /// Run the operation with values that were checked for this input.
     ///
-    /// The document accepts the edits of the outcome. Where what was asked for is not reached, the
-    /// outcome says so; edits are those of the best that was found then, if there is one.
+    /// The document accepts the edits of the outcome. Here alone it is decided whether what was asked for is
+    /// reached, on the vertices as the document has them; if not, edits are those of the best that was found, if
+    /// there is one.
     ///
     /// # Errors
     /// As [`Operation::check`]; if the values make no curve; [`OperationError::Cancelled`]
@@ -121,6 +122,10 @@ impl Operation {
         let after = outcome.applied_to(input.document())?;
         let remarks = matches::remarks(input.document(), &outcome.edits, &after);
         outcome.remarks.extend(remarks);
+        let check = outcome.check(&after, progress);
+        let check = check.ok_or(OperationError::Cancelled)?;
+        outcome.reached = check.holds;
+        outcome.residual = check.residual;
         if progress.is_cancelled() {
             return Err(OperationError::Cancelled);
         }

@@ -11,17 +11,21 @@ use super::operands::Operands;
 use super::value::Value;
 use crate::document::{CurveId, Document, Edit, EditError, ParameterSpan, Renumbering};
 use crate::geometry::approximation::LevelComparison;
+use crate::geometry::fairing::requirement::{Check, Requirement};
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{Approximation, End, FloatPolygon};
+use crate::geometry::{Approximation, End, FloatPolygon, Progress};
 
 /// Hold the outcome of an operation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outcome {
-    /// Whether what was asked for is reached; if not, edits are those of the best that was found, if
-    /// there is one.
+    /// Whether all requirements hold; if not, edits are those of the best that was found, if
+    /// there is one. [`Operation::run`](super::Operation::run) decides.
     pub reached: bool,
-    /// What is left of a target or tolerance, as a length.
+    /// The largest miss of a requirement as a length; `None` if only features are asked for, or nothing.
+    /// [`Operation::run`](super::Operation::run) measures it.
     pub residual: Option<f64>,
+    /// What is asked of curves as they are after the edits.
+    pub requirements: Vec<(CurveId, Vec<Requirement>)>,
     /// The edits to make, in this order.
     pub edits: Vec<Edit>,
     /// How far the curve moves.
@@ -202,10 +206,28 @@ impl Outcome {
     /// Change nothing.
     pub(super) fn unchanged(deviation: Deviation) -> Self {
         Self {
-            reached: true,
             deviation,
             ..Self::default()
         }
+    }
+
+    /// Check the requirements on a document that has the edits; `None` if `progress` is cancelled. One on a curve
+    /// that does not exist fails.
+    pub(super) fn check(&self, after: &Document, progress: &Progress) -> Option<Check> {
+        let mut check = Check {
+            holds: true,
+            residual: None,
+        };
+        for (id, requirements) in &self.requirements {
+            check = check.and(match after.curve(*id) {
+                Some(curve) => Check::of(requirements, &curve.polygon, progress)?,
+                None => Check {
+                    holds: false,
+                    residual: None,
+                },
+            });
+        }
+        Some(check)
     }
 
     /// Whether there is something to keep: what was asked for, or the best that was found.

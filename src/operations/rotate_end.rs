@@ -5,11 +5,13 @@ use super::inputs::Inputs;
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
-use super::targets::{annotations, check_targets, corrected, cusp, target};
+use super::targets::{
+    SHARE_OF_SIZE, annotations, check_targets, corrected, cusp, place_of, target,
+};
 use super::values::Values;
 use super::which_end::{END, end};
 use crate::geometry::Progress;
-use crate::geometry::end_correction::{EndDifference, align_end};
+use crate::geometry::end_correction::{EndDifference, EndTarget, align_end};
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
@@ -29,18 +31,24 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     let target = target(curve, end)?;
     let direction = target.direction;
     let direction = direction.ok_or(OperationError::NoTargetDirection { end })?;
-    let size = curve.polygon.size();
+    let aim = EndTarget {
+        point: curve.polygon.end_jet(end).point,
+        direction: Some(direction),
+        ..EndTarget::default()
+    };
+    let tolerance = SHARE_OF_SIZE * curve.polygon.size();
+    let requirements = vec![(id, vec![place_of(&curve.polygon, end, aim, tolerance)])];
     if curve.polygon.end_jet(end).tangent().is_none() {
-        let mut outcome = Outcome::unchanged(Deviation::Exact);
-        outcome.reached = false;
-        outcome.remarks.extend(cusp(curve, &curve.polygon));
-        return Ok(outcome);
+        return Ok(Outcome {
+            requirements,
+            remarks: cusp(curve, &curve.polygon).into_iter().collect(),
+            ..Outcome::unchanged(Deviation::Exact)
+        });
     }
     let angle = EndDifference::between(&curve.polygon, end, &target).angle;
     let polygon = align_end(&curve.polygon, end, direction)?;
-    let left = EndDifference::between(&polygon, end, &target).angle;
     let mut outcome = corrected(id, curve, polygon)?;
-    outcome.residual = Some(left.abs() * size);
+    outcome.requirements = requirements;
     outcome.figures = vec![Figure::angle("rotation", "Rotation", angle)];
     outcome.annotations = annotations(curve, end);
     Ok(outcome)

@@ -1,16 +1,36 @@
 //! What operations on ends share: the targets of a curve, and what is left of them.
 
-use super::editable::open;
+use super::editable::{check_measurable, open};
 use super::error::OperationError;
 use super::operands::Operands;
 use super::outcome::{Annotation, Deviation, Outcome};
 use crate::document::{Curve, CurveId};
 use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::fairing::requirement::{PlaceRequest, Requirement};
 use crate::geometry::{End, FloatPolygon};
+
+/// The tolerance of ends that is offered, in units of the size of the polygon.
+pub(super) const SHARE_OF_SIZE: f64 = 1e-9;
+
+/// Require an end of an open curve to meet a target within a length.
+pub(super) fn place_of(
+    polygon: &FloatPolygon,
+    end: End,
+    target: EndTarget,
+    tolerance: f64,
+) -> Requirement {
+    Requirement::Place(PlaceRequest {
+        u: end.parameter(polygon),
+        target,
+        tolerance: Some(tolerance),
+        speed: None,
+    })
+}
 
 /// Refuse a curve that is locked or hidden, has no ends, or no target.
 pub(super) fn check_targets(input: &Operands) -> Result<(), OperationError> {
     let curve = open(input, "corrected at its ends")?;
+    check_measurable(curve)?;
     if curve.targets.list().is_empty() {
         return Err(OperationError::NoTarget { end: None });
     }

@@ -5,11 +5,11 @@ use super::inputs::Inputs;
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Figure, Outcome};
-use super::targets::{annotations, check_targets, corrected, target};
+use super::targets::{SHARE_OF_SIZE, annotations, check_targets, corrected, place_of, target};
 use super::values::Values;
 use super::which_end::{END, end};
 use crate::geometry::Progress;
-use crate::geometry::end_correction::{EndDifference, translate_end};
+use crate::geometry::end_correction::{EndDifference, EndTarget, translate_end};
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
@@ -29,11 +29,14 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     let target = target(curve, end)?;
     let way = EndDifference::between(&curve.polygon, end, &target).vector;
     let polygon = translate_end(&curve.polygon, end, way)?;
-    let left = EndDifference::between(&polygon, end, &target)
-        .vector
-        .length();
+    let place = EndTarget {
+        point: target.point,
+        ..EndTarget::default()
+    };
+    let tolerance = SHARE_OF_SIZE * polygon.size();
+    let requirement = place_of(&polygon, end, place, tolerance);
     let mut outcome = corrected(id, curve, polygon)?;
-    outcome.residual = Some(left);
+    outcome.requirements = vec![(id, vec![requirement])];
     outcome.figures = vec![Figure::length("translation", "Translation", way.length())];
     outcome.annotations = annotations(curve, end);
     Ok(outcome)

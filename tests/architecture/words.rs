@@ -10,6 +10,13 @@ const WINDOW_CRATES: [&str; 4] = ["egui", "eframe", "egui_plot", "rfd"];
 /// The one file that may touch the disk.
 const DISK: &str = "io/disk.rs";
 
+/// The files that say whether a request is reached, and repeat it in reports.
+const JUDGES: [&str; 3] = [
+    "operations/operation.rs",
+    "operations/outcome.rs",
+    "operations/report.rs",
+];
+
 /// Marks of unfinished work.
 const UNFINISHED: [&str; 5] = ["TODO", "FIXME", "todo!", "unimplemented!", "dbg!"];
 
@@ -40,6 +47,25 @@ fn check_disk(source: &Source) -> Vec<String> {
         return vec![complaint];
     }
     Vec::new()
+}
+
+/// Whether an operation says itself that its request is reached: the check of requirements alone may.
+fn check_reached(source: &Source) -> Vec<String> {
+    if !source.path.starts_with("operations/") || JUDGES.contains(&source.path.as_str()) {
+        return Vec::new();
+    }
+    let code = code(&source.text);
+    let tokens = tokens(&code);
+    let said = tokens
+        .windows(2)
+        .filter(|pair| matches!(pair, ["reached", ":" | "="]));
+    let complaint = |_| {
+        format!(
+            "src/{} sets reached: only the check of requirements may",
+            source.path
+        )
+    };
+    said.map(complaint).collect()
 }
 
 fn check_words(source: &Source) -> Vec<String> {
@@ -81,6 +107,25 @@ fn only_the_ui_knows_the_window() {
 #[test]
 fn only_one_file_touches_the_disk() {
     check_all(&Source::all(), check_disk);
+}
+
+#[test]
+fn no_operation_says_itself_that_it_is_reached() {
+    check_all(&Source::all(), check_reached);
+    let said = ["src/operations/fit.rs sets reached: only the check of requirements may"];
+    for text in [
+        "fn f() { outcome.reached = true; }",
+        "fn f() { Outcome { reached: true } }",
+    ] {
+        check(check_reached, "operations/fit.rs", text, &said);
+        check(check_reached, "operations/operation.rs", text, &[]);
+    }
+    check(
+        check_reached,
+        "operations/fit.rs",
+        "fn f() -> bool { a.reached == b.reached }",
+        &[],
+    );
 }
 
 #[test]

@@ -5,7 +5,7 @@ use batten::geometry::between::{BetweenError, Ends, SegmentKind};
 use glam::DVec2;
 
 use crate::common::Random;
-use crate::{Placing, check, found, off};
+use crate::{Placing, check, found, is_reached, off};
 
 /// How near radii a million times apart come to the limit, in radians.
 const NEARLY: f64 = 1e-3;
@@ -195,7 +195,7 @@ fn the_ends_of_an_arc_are_joined_by_the_arc() {
             ..on_chord(30.0, 30.0)
         };
         let segment = found(&ends, kind, 5).expect("an arc");
-        assert!(segment.arc && segment.is_reached());
+        assert!(segment.arc && is_reached(&segment));
         assert!(off(&segment, &ends) <= crate::EXACT);
         let bends = segment.polygon.end_jet(End::Start).signed_curvature();
         assert!((bends + 1.0).abs() <= NEARLY, "{bends}");

@@ -5,7 +5,7 @@ use glam::DVec2;
 
 use crate::common::Random;
 use crate::true_segment::TrueSegment;
-use crate::{Placing, check, found};
+use crate::{Placing, check, found, is_reached};
 
 const FREE: SegmentKind = SegmentKind::LogAesthetic { alpha: None };
 
@@ -150,7 +150,7 @@ fn wide_pairs(seed: u64, cases: usize) -> [usize; 2] {
         let Ok(found) = found(&ends, FREE, 4 + case % 6) else {
             continue;
         };
-        let proved = found.is_reached();
+        let proved = is_reached(&found);
         counts[0] += 1;
         counts[1] += usize::from(proved);
         if !proved {

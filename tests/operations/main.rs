@@ -16,5 +16,6 @@ mod matches;
 mod mineur_farin;
 mod parts;
 mod random;
+mod reached;
 mod reports;
 mod runner;

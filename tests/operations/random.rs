@@ -10,7 +10,10 @@ use crate::common::Random;
 use crate::runner::examples;
 
 /// Rounds over all examples and operations.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 6;
+
+/// The seconds that a search has.
+const TIME: f64 = 0.2;
 
 /// The largest whole number that is drawn: more only takes longer.
 const MOST: f64 = 60.0;
@@ -24,6 +27,9 @@ fn value(parameter: &Parameter, input: &Operands, random: &mut Random) -> Value 
         Bound::Unbounded => None,
     };
     let low = number(from).unwrap_or(-1e3);
+    if parameter.name == "time-limit" {
+        return Value::List(vec![TIME]);
+    }
     match &parameter.kind {
         Kind::Whole { .. } => {
             let high = number(to).unwrap_or(MOST).min(low + MOST);
@@ -73,7 +79,17 @@ fn value(parameter: &Parameter, input: &Operands, random: &mut Random) -> Value 
 
 #[test]
 fn random_values_neither_panic_nor_make_edits_that_are_refused() {
-    let mut random = Random(0x0b5e_55ed);
+    assert_harmless(0x0b5e_55ed);
+}
+
+#[test]
+fn other_random_values_neither_panic_nor_make_edits_that_are_refused() {
+    assert_harmless(0x0b5e_55ee);
+}
+
+/// Run all operations on all examples with random values.
+fn assert_harmless(seed: u64) {
+    let mut random = Random(seed);
     let (mut reached, mut refused) = (0, 0);
     for round in 0..ROUNDS {
         for (name, runner) in examples() {
@@ -128,5 +144,5 @@ fn random_values_neither_panic_nor_make_edits_that_are_refused() {
             }
         }
     }
-    assert!(reached > 800 && refused > 20, "{reached} {refused}");
+    assert!(reached > 400 && refused > 10, "{reached} {refused}");
 }

@@ -103,18 +103,10 @@ fn added(vertices: &[DVec3]) -> Result<Outcome, OperationError> {
 
 fn outcome(edits: Vec<Edit>) -> Outcome {
     Outcome {
-        reached: true,
-        residual: None,
         edits,
         deviation: Deviation::Unmeasured,
         renumbered: true,
-        figures: Vec::new(),
-        equivalence: None,
-        remarks: Vec::new(),
-        annotations: Vec::new(),
-        joint: None,
-        handles: Vec::new(),
-        atlas: None,
+        ..Outcome::default()
     }
 }
 

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use glam::{DQuat, DVec2};
 
 use super::error::BetweenError;
+use crate::geometry::end_correction::EndTarget;
 use crate::geometry::references::{Placement, ReferenceError};
 
 /// The lengths that can be computed with: their cubes are in the range of numbers.
@@ -58,6 +59,16 @@ impl Ends {
         Self {
             directions: self.directions.map(moderate),
             ..*self
+        }
+    }
+
+    /// What the segment must have at its start, 0, or its end, 1.
+    pub(super) fn target(&self, index: usize) -> EndTarget {
+        EndTarget {
+            point: self.points[index].extend(0.0),
+            direction: Some(self.directions[index].extend(0.0)),
+            curvature: self.curvatures[index],
+            ..EndTarget::default()
         }
     }
 

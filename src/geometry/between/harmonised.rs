@@ -38,8 +38,8 @@ pub(super) fn monotone(
     check_existence(task)?;
     let own = best_harmonised(task, ends, degree, progress);
     match own {
-        Err(BetweenError::Cancelled) => return own,
-        Ok(fit) if fit.monotone == Verdict::Proved => return Ok(fit),
+        Err(BetweenError::Cancelled) => return Err(BetweenError::Cancelled),
+        Ok((fit, true)) => return Ok(fit),
         _ => {}
     }
     for alpha in ALPHAS {
@@ -58,34 +58,34 @@ pub(super) fn monotone(
             _ => {}
         }
     }
-    own
+    own.map(|(fit, _)| fit)
 }
 
-/// Find the harmonised polygon that has monotone curvature, or the first one.
+/// Find the harmonised polygon that has monotone curvature and its ends, or the first one; tell which.
 fn best_harmonised(
     task: &Task,
     ends: &Ends,
     degree: usize,
     progress: &Progress,
-) -> Result<Fit, BetweenError> {
+) -> Result<(Fit, bool), BetweenError> {
     let mut best: Option<Fit> = None;
     for count in COUNTS {
         let begun = quasi(&Cubic::between(task, ends), 1.0, degree, count)?;
-        let (begun, residual) = exact_ends(&begun, ends)?;
+        let begun = exact_ends(&begun, ends)?;
         let found = harmonised(&begun, task, ends, progress)?;
         let monotone = Features::new(&found.polygon).monotone;
         let fit = Fit {
             polygon: found.polygon,
-            residual,
             deviation: 0.0,
             monotone,
         };
         if found.reached {
-            return Ok(fit);
+            return Ok((fit, true));
         }
         best.get_or_insert(fit);
     }
-    best.ok_or(BetweenError::Cancelled)
+    let best = best.ok_or(BetweenError::Cancelled)?;
+    Ok((best, false))
 }
 
 /// Harmonise a polygon so that no extrema of the curvature are left, and an inflection only where

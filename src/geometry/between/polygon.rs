@@ -11,7 +11,6 @@ use crate::geometry::approximation::{
 };
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::end::End;
-use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use crate::geometry::features::{Features, Verdict};
 use crate::geometry::float_polygon::FloatPolygon;
@@ -28,8 +27,6 @@ const DISTURBANCE: Disturbance = Disturbance::Differences(3);
 pub(super) struct Fit {
     /// The polygon, whose ends are exact.
     pub(super) polygon: FloatPolygon,
-    /// Residual of the ends, as a length.
-    pub(super) residual: f64,
     /// The largest distance to the true segment.
     pub(super) deviation: f64,
     /// Whether its curvature is monotone.
@@ -129,7 +126,7 @@ impl Search<'_> {
             // Few segments near a singularity of the true one make no curve.
             let found = quasi(curve, end, self.degree, count);
             let found = found.and_then(|polygon| Ok(exact_ends(&polygon, self.ends)?));
-            let (polygon, residual) = match found {
+            let polygon = match found {
                 Ok(found) => found,
                 Err(error) => {
                     failed = Some(error);
@@ -145,7 +142,6 @@ impl Search<'_> {
             };
             let found = Fit {
                 polygon,
-                residual,
                 deviation,
                 monotone,
             };
@@ -186,16 +182,10 @@ pub(super) fn quasi(
 pub(super) fn exact_ends(
     polygon: &FloatPolygon,
     ends: &Ends,
-) -> Result<(FloatPolygon, f64), CorrectionError> {
-    let target = |index: usize| EndTarget {
-        point: ends.points[index].extend(0.0),
-        direction: Some(ends.directions[index].extend(0.0)),
-        curvature: ends.curvatures[index],
-        ..EndTarget::default()
-    };
-    let targets = [(End::Start, target(0)), (End::Finish, target(1))];
+) -> Result<FloatPolygon, CorrectionError> {
+    let targets = [(End::Start, ends.target(0)), (End::Finish, ends.target(1))];
     let corrected = correct_jointly(polygon, &targets, DISTURBANCE, &[], &Progress::default())?;
-    Ok((corrected.polygon, corrected.residual))
+    Ok(corrected.polygon)
 }
 
 /// Measure the largest distance between a polygon's curve and the true segment; `parameter` tells which

@@ -8,12 +8,17 @@ use super::polygon::{Fit, fit};
 use super::solving::log_aesthetic_parts;
 use super::superspiral::superspiral_parts;
 use crate::geometry::end::End;
+use crate::geometry::fairing::counts::CountRequest;
+use crate::geometry::fairing::requirement::{PlaceRequest, Requirement};
 use crate::geometry::features::{Features, Verdict};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
 /// The tolerance that is offered, in units of the length.
 const SHARE_OF_LENGTH: f64 = 1e-6;
+
+/// The largest miss of an end, in units of the curve's size.
+const SHARE_OF_SIZE: f64 = 1e-9;
 
 /// Precision of lengths.
 const LENGTH: f64 = 1e-12;
@@ -47,8 +52,8 @@ pub struct Segment {
     /// The true segment, in one part or two that meet with one curvature; none for any monotone curve,
     /// which is its own, unless it is an arc.
     pub parts: Vec<Part>,
-    /// Residual of the requested points, directions and curvatures, as a length.
-    pub residual: f64,
+    /// What the polygon must hold: the ends, the tolerance and, unless it is an arc, monotone curvature.
+    pub requirements: Vec<Requirement>,
     /// The largest distance from the true segment, 0 where there is none.
     pub deviation: f64,
     /// The tolerance of that distance.
@@ -64,11 +69,32 @@ pub struct Segment {
     pub straight: bool,
 }
 
-impl Segment {
-    /// Whether it stays within the tolerance and is proved to have monotone curvature, or follows an arc.
-    pub fn is_reached(&self) -> bool {
-        self.deviation <= self.tolerance && (self.arc || self.monotone == Verdict::Proved)
-    }
+/// What a segment must hold.
+fn requirements(
+    polygon: &FloatPolygon,
+    ends: &Ends,
+    is_arc: bool,
+    [deviation, tolerance]: [f64; 2],
+) -> Vec<Requirement> {
+    let size = polygon.size();
+    let places = [0, 1].map(|index| {
+        Requirement::Place(PlaceRequest {
+            u: End::BOTH[index].parameter(polygon),
+            target: ends.target(index),
+            tolerance: Some(SHARE_OF_SIZE * size),
+            speed: None,
+        })
+    });
+    let monotone = Requirement::Features {
+        stretch: None,
+        request: CountRequest::exactly([None, Some(0), None]),
+    };
+    let limit = Requirement::Limit {
+        found: deviation,
+        most: tolerance,
+    };
+    let monotone = Some(monotone).filter(|_| !is_arc);
+    places.into_iter().chain([limit]).chain(monotone).collect()
 }
 
 /// Find a segment of a kind between two ends, as a float polygon of a degree from 3 on: with the fewest
@@ -103,7 +129,6 @@ pub fn between(
     let allowed = |length: f64| tolerance.unwrap_or(SHARE_OF_LENGTH * length);
     let Fit {
         polygon,
-        residual,
         deviation,
         monotone,
     } = match &parts {
@@ -112,10 +137,11 @@ pub fn between(
     };
     let length = polygon.arc_length(LENGTH);
     let tolerance = allowed(parts.as_ref().map_or(length, Parts::length));
+    let arc = parts.as_ref().is_some_and(Parts::is_arc);
     Ok(Segment {
-        arc: parts.as_ref().is_some_and(Parts::is_arc),
+        requirements: requirements(&polygon, ends, arc, [deviation, tolerance]),
+        arc,
         parts: parts.map_or_else(Vec::new, |parts| parts.parts),
-        residual,
         deviation,
         tolerance,
         length,
@@ -135,16 +161,15 @@ fn straight(ends: &Ends, degree: usize, tolerance: Option<f64>) -> Result<Segmen
     let vertices = (0..STRAIGHT + degree).map(place).collect();
     // Correcting the ends would bend it by rounding.
     let polygon = FloatPolygon::new(degree, vertices, None, false)?;
-    let points = End::BOTH.map(|end| polygon.end_jet(end).point);
-    let residual = points[0].distance(from).max(points[1].distance(to));
     let length = from.distance(to);
+    let tolerance = tolerance.unwrap_or(SHARE_OF_LENGTH * length);
     Ok(Segment {
+        requirements: requirements(&polygon, ends, false, [0.0, tolerance]),
         monotone: Features::new(&polygon).monotone,
         polygon,
         parts: Vec::new(),
-        residual,
         deviation: 0.0,
-        tolerance: tolerance.unwrap_or(SHARE_OF_LENGTH * length),
+        tolerance,
         length,
         arc: false,
         straight: true,

@@ -254,7 +254,7 @@ impl Parts<'_> {
         let (around, stretch) = around(&best.polygon, &best.bridge)?;
         let features = Features::proved(&around, |_| !progress.is_cancelled());
         let features = features.ok_or(BridgeError::Cancelled)?;
-        let proved = counted(&features, around.is_planar(), stretch);
+        let proved = counted(&features, around.is_planar(), Some(stretch));
         Ok(Bridged {
             polygon: best.polygon,
             bridge: best.bridge,

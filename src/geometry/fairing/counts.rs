@@ -51,11 +51,27 @@ impl ShapeCounts {
 
 /// The requested numbers of features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct CountRequest {
-    pub(super) counts: ShapeCounts,
+pub struct CountRequest {
+    /// The numbers.
+    pub counts: ShapeCounts,
     /// Whether the numbers of inflections, extrema and torsion extrema are exact requests, or
     /// largest numbers.
-    pub(super) exact: [bool; 3],
+    pub exact: [bool; 3],
+}
+
+impl CountRequest {
+    /// Ask for just so many inflections, extrema and torsion extrema; `None` for any number.
+    pub fn exactly([inflections, extrema, torsion_extrema]: [Option<usize>; 3]) -> Self {
+        let any = usize::MAX;
+        Self {
+            counts: ShapeCounts {
+                inflections: inflections.unwrap_or(any),
+                extrema: extrema.unwrap_or(any),
+                torsion_extrema: torsion_extrema.unwrap_or(any),
+            },
+            exact: [inflections, extrema, torsion_extrema].map(|count| count.is_some()),
+        }
+    }
 }
 
 /// The proved features of a stretch.
@@ -77,9 +93,18 @@ impl ProvedCounts {
     }
 }
 
-/// Count the proved features that lie in a stretch.
-pub(super) fn counted(features: &Features, planar: bool, stretch: [f64; 2]) -> ProvedCounts {
-    let within = |u: [f64; 2]| u[1] >= stretch[0] && u[0] <= stretch[1];
+/// Count the proved features that lie in a stretch, of a periodic curve with u₀ > u₁ over the seam; `None` for the
+/// whole curve.
+pub(super) fn counted(
+    features: &Features,
+    planar: bool,
+    stretch: Option<[f64; 2]>,
+) -> ProvedCounts {
+    let within = |u: [f64; 2]| match stretch {
+        None => true,
+        Some([from, to]) if from <= to => u[1] >= from && u[0] <= to,
+        Some([from, to]) => u[1] >= from || u[0] <= to,
+    };
     let number = |quantity: Feature| -> usize {
         let found = features.places(quantity).into_iter();
         let found = found.filter(|(u, _)| within(*u));

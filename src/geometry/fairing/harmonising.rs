@@ -4,7 +4,10 @@ use glam::DVec3;
 use thiserror::Error;
 
 use super::counts::{CountRequest, ShapeCounts, counted, domain, seen, significant};
+use super::joint_correction::{Disturbance, correct_jointly};
 use super::problem::{Problem, Sweep};
+use super::requirement::{Check, PlaceRequest, Requirement};
+use crate::geometry::end::End;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::Features;
@@ -82,8 +85,10 @@ pub struct Harmonised {
     /// The polygon with the least change that meets the request, or else the one that
     /// comes closest.
     pub polygon: FloatPolygon,
-    /// Whether it meets the request: proved features, held ends, deviation.
+    /// Whether it meets the requirements.
     pub reached: bool,
+    /// What the polygon must hold: proved features, ends, vertices, deviation.
+    pub requirements: Vec<Requirement>,
     /// The requested numbers of features.
     pub request: ShapeCounts,
     /// The proved numbers of features.
@@ -181,10 +186,12 @@ pub fn harmonise(
         },
         exact: given.map(|count| count.is_some()),
     };
-    let found = counted(&features, polygon.is_planar(), stretch);
+    let found = counted(&features, polygon.is_planar(), Some(stretch));
+    let requirements = requirements(polygon, stretch, harmony, request);
     let unchanged = Harmonised {
         polygon: polygon.clone(),
         reached: found.has(request),
+        requirements: requirements.clone(),
         request: request.counts,
         counts: found.counts,
         undecided: found.undecided,
@@ -195,43 +202,42 @@ pub fn harmonise(
     if unchanged.reached {
         return Ok(unchanged);
     }
-    let moves = |vertex| {
-        !harmony.locked.contains(&vertex) && may_move(polygon, stretch, harmony.ends, vertex)
-    };
-    let mut problem = Problem::new(polygon, polygon.is_planar(), moves);
-    if problem.freedoms() == 0 {
+    let problem = |keeps_speed| problem(polygon, stretch, harmony, keeps_speed);
+    let first = problem(false);
+    if first.freedoms() == 0 {
         return Err(HarmonyError::NothingMoves);
     }
-    problem.count_only(|vertex| counts(polygon, stretch, harmony.ends, vertex));
-    for (u, held) in ends(polygon, stretch, harmony) {
-        if let Some(target) = kept(polygon, u, held) {
-            problem.hold(u, &target, None);
-        }
-    }
+    let is_apart = |it: &&Requirement| !matches!(it, Requirement::Features { .. });
     let mut search = Search {
-        problem,
+        problem: first,
+        apart: requirements.iter().filter(is_apart).cloned().collect(),
+        requirements: &requirements,
         stretch,
         request,
         most: harmony.largest_deviation.unwrap_or(f64::INFINITY),
         progress,
         best: Candidate {
             excess: found.excess(request),
+            holds_apart: true,
             harmonised: unchanged,
             largest_move: 0.0,
         },
+        spoils_ends: false,
         promising: None,
         polygon,
         iterations: 0,
     };
-    for (index, order) in ORDERS.into_iter().enumerate() {
-        search.run(order, index as f64 / ORDERS.len() as f64)?;
+    search.run_all([0.0, 0.5])?;
+    // Ends that turned round or stopped on the way keep their speeds, too.
+    if search.spoils_ends && !search.best.harmonised.reached {
+        search.problem = problem(true);
+        search.run_all([0.5, 0.5])?;
     }
-    search.prove_most_promising()?;
     let iterations = search.iterations;
     let mut best = search.best.harmonised;
     let is_near = best.reached && best.deviation <= NEAR * polygon.size();
     if !is_near
-        && let Some(refitted) = refitted(polygon, harmony, request, progress)
+        && let Some(refitted) = refitted(polygon, harmony, request, &requirements, progress)
         && (!best.reached || refitted.deviation < best.deviation)
     {
         best = refitted;
@@ -239,11 +245,70 @@ pub fn harmonise(
     Ok(Harmonised { iterations, ..best })
 }
 
+/// What must hold, the deviation apart.
+fn requirements(
+    polygon: &FloatPolygon,
+    stretch: [f64; 2],
+    harmony: &Harmony,
+    request: CountRequest,
+) -> Vec<Requirement> {
+    let places = ends(polygon, stretch, harmony).into_iter();
+    let places = places.filter_map(|(u, held)| {
+        let target = kept(polygon, u, held)?;
+        Some(Requirement::Place(PlaceRequest {
+            u,
+            target,
+            tolerance: None,
+            speed: Some(polygon.jet(u).speed()),
+        }))
+    });
+    let stays = |vertex: &usize| !moves(polygon, stretch, harmony, *vertex);
+    let vertices = (0..polygon.vertices().len()).filter(stays);
+    let vertices = vertices.map(|vertex| Requirement::Vertex {
+        vertex,
+        point: polygon.vertex(vertex),
+    });
+    let features = Requirement::Features {
+        stretch: harmony.stretch,
+        request,
+    };
+    [features]
+        .into_iter()
+        .chain(places)
+        .chain(vertices)
+        .collect()
+}
+
+/// Whether a vertex is free to move.
+fn moves(polygon: &FloatPolygon, stretch: [f64; 2], harmony: &Harmony, vertex: usize) -> bool {
+    !harmony.locked.contains(&vertex) && may_move(polygon, stretch, harmony.ends, vertex)
+}
+
+/// The vertices that move, and what is held, with the speeds at the ends if `keeps_speed`.
+fn problem<'a>(
+    polygon: &'a FloatPolygon,
+    stretch: [f64; 2],
+    harmony: &Harmony,
+    keeps_speed: bool,
+) -> Problem<'a> {
+    let moves = |vertex| moves(polygon, stretch, harmony, vertex);
+    let mut problem = Problem::new(polygon, polygon.is_planar(), moves);
+    problem.count_only(|vertex| counts(polygon, stretch, harmony.ends, vertex));
+    for (u, held) in ends(polygon, stretch, harmony) {
+        if let Some(target) = kept(polygon, u, held) {
+            let speed = keeps_speed.then(|| polygon.jet(u).speed());
+            problem.hold(u, &target, speed);
+        }
+    }
+    problem
+}
+
 /// Fit a planar curve as a whole to the old one, if it then has the features asked for and does not move too far.
 fn refitted(
     polygon: &FloatPolygon,
     harmony: &Harmony,
     request: CountRequest,
+    requirements: &[Requirement],
     progress: &Progress,
 ) -> Option<Harmonised> {
     let is_whole = harmony.stretch.is_none() && harmony.locked.is_empty();
@@ -267,11 +332,16 @@ fn refitted(
             kept,
         };
         let (refitted, deviation) = refit(polygon, &asked, progress)?;
+        let refitted = with_ends(refitted, requirements, progress);
         let features = Features::proved(&refitted, |_| !progress.is_cancelled())?;
-        let found = counted(&features, true, domain(&refitted));
-        (found.has(request) && deviation <= most).then_some(Harmonised {
+        let found = counted(&features, true, None);
+        let limit = limit(deviation, most);
+        let requirements = [requirements, &[limit]].concat();
+        let check = Check::with_features(&requirements, &refitted, Some(&features));
+        check.holds.then_some(Harmonised {
             polygon: refitted,
             reached: true,
+            requirements,
             request: request.counts,
             counts: found.counts,
             undecided: found.undecided,
@@ -283,6 +353,35 @@ fn refitted(
     // Where no number of inflections is given, fewer will do.
     let first = tried(harmony.inflections);
     first.or_else(|| tried(Some(request.counts.inflections)))
+}
+
+/// Give a fitted curve just the ends that are required; as it was if it has them, or they cannot be met.
+fn with_ends(
+    polygon: FloatPolygon,
+    requirements: &[Requirement],
+    progress: &Progress,
+) -> FloatPolygon {
+    let places = requirements
+        .iter()
+        .filter_map(|requirement| match requirement {
+            Requirement::Place(place) => Some(*place),
+            _ => None,
+        });
+    let places: Vec<PlaceRequest> = places.collect();
+    let size = polygon.size();
+    if places.iter().all(|place| place.is_met(&polygon, size)) {
+        return polygon;
+    }
+    let end = |u: f64| if u > 0.0 { End::Finish } else { End::Start };
+    let targets = places.iter().map(|place| (end(place.u), place.target));
+    let targets: Vec<(End, EndTarget)> = targets.collect();
+    let order = Disturbance::Differences(3);
+    let corrected = correct_jointly(&polygon, &targets, order, &[], progress);
+    corrected.map_or(polygon, |corrected| corrected.polygon)
+}
+
+fn limit(found: f64, most: f64) -> Requirement {
+    Requirement::Limit { found, most }
 }
 
 fn prove(polygon: &FloatPolygon, progress: &Progress) -> Result<Features, HarmonyError> {
@@ -312,8 +411,25 @@ fn over_the_seam(
         ..harmony.clone()
     };
     let found = harmonise(&polygon.begun_at(seam), &harmony, progress)?;
+    let requirements = found.requirements.into_iter();
+    let requirements = requirements.map(|requirement| match requirement {
+        Requirement::Features { request, .. } => Requirement::Features {
+            stretch: Some([from, to]),
+            request,
+        },
+        Requirement::Place(place) => Requirement::Place(PlaceRequest {
+            u: (place.u + first).rem_euclid(count as f64),
+            ..place
+        }),
+        Requirement::Vertex { vertex, point } => Requirement::Vertex {
+            vertex: (vertex + seam) % count,
+            point,
+        },
+        other => other,
+    });
     Ok(Harmonised {
         polygon: found.polygon.begun_at(2 * count - seam),
+        requirements: requirements.collect(),
         ..found
     })
 }
@@ -390,14 +506,16 @@ struct Candidate {
     harmonised: Harmonised,
     /// The number of features too many or too few, with the undecided ones.
     excess: usize,
+    /// Whether all but the features holds.
+    holds_apart: bool,
     largest_move: f64,
 }
 
 impl Candidate {
     /// Distance from the request; the largest move decides between equals.
-    fn rank(&self) -> (bool, usize, f64) {
-        let found = &self.harmonised;
-        (!found.reached, self.excess, self.largest_move)
+    fn rank(&self) -> (bool, bool, usize, f64) {
+        let missed = !self.harmonised.reached;
+        (missed, !self.holds_apart, self.excess, self.largest_move)
     }
 }
 
@@ -414,22 +532,36 @@ enum CountVerdict {
 
 struct Search<'a> {
     problem: Problem<'a>,
+    requirements: &'a [Requirement],
+    /// All of them but the features.
+    apart: Vec<Requirement>,
     polygon: &'a FloatPolygon,
     stretch: [f64; 2],
     request: CountRequest,
     most: f64,
     progress: &'a Progress,
     best: Candidate,
+    /// Whether a polygon with the features asked for has lost the ends.
+    spoils_ends: bool,
     /// The closest polygon that misses the request, and its number of features too many.
     promising: Option<(usize, FloatPolygon)>,
     iterations: usize,
 }
 
 impl Search<'_> {
-    /// Search with differences of one order; `done` is the progress before.
-    fn run(&mut self, order: usize, done: f64) -> Result<(), HarmonyError> {
+    /// Search with differences of all orders. `[done, work]` are shares of the progress.
+    fn run_all(&mut self, [done, work]: [f64; 2]) -> Result<(), HarmonyError> {
+        let work = work / ORDERS.len() as f64;
+        for (index, order) in ORDERS.into_iter().enumerate() {
+            self.run(order, [done + work * index as f64, work])?;
+        }
+        self.prove_most_promising()
+    }
+
+    /// Search with differences of one order. `[done, work]` are shares of the progress.
+    fn run(&mut self, order: usize, [done, work]: [f64; 2]) -> Result<(), HarmonyError> {
         let sweeps = self.problem.sweeps(order);
-        let share = 1.0 / (ORDERS.len() * sweeps.len()) as f64;
+        let share = work / sweeps.len() as f64;
         for (index, sweep) in sweeps.iter().enumerate() {
             self.sweep(sweep, [done + share * index as f64, share])?;
         }
@@ -534,17 +666,26 @@ impl Search<'_> {
     /// Prove a polygon, keep it if it is better, and compare it with the request.
     fn rank(&mut self, polygon: FloatPolygon) -> Result<CountVerdict, HarmonyError> {
         let features = prove(&polygon, self.progress)?;
-        let proved = counted(&features, polygon.is_planar(), self.stretch);
+        let proved = counted(&features, polygon.is_planar(), Some(self.stretch));
         let deviation = self.polygon.deviation(&polygon)?;
+        let check = |requirements: &[Requirement]| {
+            Check::with_features(requirements, &polygon, Some(&features)).holds
+        };
+        let holds_apart = check(&self.apart);
+        let requirements = [self.requirements, &[limit(deviation, self.most)]].concat();
+        let reached = check(&requirements);
         let moves = self.polygon.vertices().iter().zip(polygon.vertices());
         let moves = moves.map(|(before, after)| before.distance(*after));
         let has = proved.has(self.request);
+        self.spoils_ends |= has && !holds_apart;
         let candidate = Candidate {
             excess: proved.excess(self.request),
+            holds_apart,
             largest_move: moves.fold(0.0, f64::max),
             harmonised: Harmonised {
                 polygon,
-                reached: has && deviation <= self.most,
+                reached,
+                requirements,
                 request: self.request.counts,
                 counts: proved.counts,
                 undecided: proved.undecided,
@@ -556,8 +697,10 @@ impl Search<'_> {
         if candidate.rank() < self.best.rank() {
             self.best = candidate;
         }
-        Ok(if has {
+        Ok(if has && holds_apart {
             CountVerdict::Met
+        } else if has {
+            CountVerdict::TooFew
         } else if proved.undecided > 0 || proved.counts.exceeds(self.request.counts) {
             CountVerdict::TooMany
         } else {

@@ -7,8 +7,9 @@ use thiserror::Error;
 
 use super::objective::Objective;
 use super::problem::{self, Descent, Problem};
+use super::requirement::PlaceRequest;
 use crate::geometry::end::End;
-use crate::geometry::end_correction::{EndDifference, EndTarget, largest_residual};
+use crate::geometry::end_correction::{EndTarget, largest_residual};
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
@@ -16,19 +17,6 @@ use crate::geometry::vector;
 
 /// The weight μ of the moves themselves; a correction fades over about 1/√μ vertices.
 const FIDELITY: f64 = 1e-3;
-
-/// The residual, in units of the curve's size, above which points and directions count as not met.
-const MET: f64 = 1e-11;
-
-/// The same for curvatures and their slopes, in units of the larger of what is asked and 1 over the
-/// size, and over its square.
-const CURVATURE_MET: f64 = 1e-10;
-
-/// Rounding error of a vertex and of combinations of its coordinates, in units of the largest.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
-/// The share of its speed with which an end counts as stopped: a cusp in the making.
-const STOPPED: f64 = 1e-3;
 
 /// The most steps towards curvatures and slopes that a frame has time for.
 const HASTY_STEPS: usize = 8;
@@ -109,7 +97,8 @@ pub type Corrector = fn(
 pub struct JointCorrection {
     /// The corrected polygon.
     pub polygon: FloatPolygon,
-    /// The largest residual of an end afterwards, as [`EndDifference::residual`] measures it.
+    /// The largest residual of an end afterwards, as [`EndDifference::residual`](crate::geometry::end_correction::EndDifference::residual)
+    /// measures it.
     pub residual: f64,
     /// The number of steps.
     pub steps: usize,
@@ -139,7 +128,6 @@ pub fn correct_jointly(
     match free {
         // A backward tangent is half a turn away from its target, so the target counts as missed.
         Err(CorrectionError::NotSolvable { .. }) => correction.solve(Speed::Kept).or(free),
-        Ok(found) if !points_forward(&found.polygon, targets) => correction.solve(Speed::Kept),
         other => other,
     }
 }
@@ -158,12 +146,7 @@ pub fn correct_hastily(
 ) -> Result<JointCorrection, CorrectionError> {
     let correction = Correction::checked(polygon, targets, disturbance, locked, progress)?;
     let problem = correction.problem(targets, Speed::Free);
-    let found = correction.finish(&problem, problem.before(), HASTY_STEPS)?;
-    if points_forward(&found.polygon, targets) {
-        Ok(found)
-    } else {
-        Err(correction.not_solvable(&problem, found.residual))
-    }
+    correction.finish(&problem, problem.before(), HASTY_STEPS)
 }
 
 /// Whether the length of an end's derivative is free or kept.
@@ -171,13 +154,6 @@ pub fn correct_hastily(
 enum Speed {
     Free,
     Kept,
-}
-
-fn points_forward(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> bool {
-    targets.iter().all(|(end, target)| {
-        let along = |direction: DVec3| polygon.end_jet(*end).first.dot(direction) > 0.0;
-        target.direction.is_none_or(along)
-    })
 }
 
 struct Correction<'a> {
@@ -329,9 +305,8 @@ impl<'a> Correction<'a> {
             let problem = self.problem(&targets, speed);
             let next = self.meet(&problem, 1, &reached.vertices, problem::MOST_STEPS)?;
             steps += next.steps;
-            let is_met = problem.polygon(&next.vertices).is_ok_and(|polygon| {
-                self.is_met(&polygon, &targets) && points_forward(&polygon, &targets)
-            });
+            let polygon = problem.polygon(&next.vertices);
+            let is_met = polygon.is_ok_and(|polygon| self.is_met(&polygon, &targets));
             if is_met {
                 (done, reached) = (share, next);
                 part *= 2.0;
@@ -360,34 +335,15 @@ impl<'a> Correction<'a> {
 
     /// Whether every target is met, but for rounding.
     fn is_met(&self, polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> bool {
-        let size = self.polygon.size();
-        let scale = size.max(vector::reach(polygon.vertices()));
         targets.iter().all(|(end, target)| {
-            let left = EndDifference::between(polygon, *end, target);
-            let placed = EndDifference {
-                curvature: 0.0,
-                slope: 0.0,
-                ..left
-            };
-            // What the rounding of vertices makes of derivatives. An end that has all but stopped
-            // would make anything of them.
-            let speed = polygon.end_jet(*end).speed();
             let bends = target.curvature.is_some() || target.slope.is_some();
-            let stopped = bends && speed < STOPPED * self.polygon.end_jet(*end).speed();
-            let rounding = ROUNDING * scale / (speed * speed);
-            let close = |left: f64, wanted: Option<f64>, unit: f64, rounding: f64| {
-                let wanted = wanted.map_or(unit, |wanted| wanted.abs().max(unit));
-                left.abs() <= (CURVATURE_MET * wanted).max(rounding)
+            let request = PlaceRequest {
+                u: end.parameter(polygon),
+                target: *target,
+                tolerance: None,
+                speed: bends.then(|| self.polygon.end_jet(*end).speed()),
             };
-            !stopped
-                && placed.residual(size) <= MET * scale
-                && close(left.curvature, target.curvature, size.recip(), rounding)
-                && close(
-                    left.slope,
-                    target.slope,
-                    (size * size).recip(),
-                    rounding / speed,
-                )
+            request.is_met(polygon, self.polygon.size())
         })
     }
 }

@@ -8,7 +8,7 @@
 
 pub mod bridging;
 mod condition;
-mod counts;
+pub mod counts;
 mod dual;
 mod flow;
 pub mod following;
@@ -21,6 +21,7 @@ pub(super) mod near_points;
 mod objective;
 pub(super) mod point_fit;
 mod problem;
+pub mod requirement;
 mod slope_signs;
 mod through_ends;
 mod unknowns;
