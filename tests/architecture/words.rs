@@ -56,9 +56,11 @@ fn check_reached(source: &Source) -> Vec<String> {
     }
     let code = code(&source.text);
     let tokens = tokens(&code);
-    let said = tokens
-        .windows(2)
-        .filter(|pair| matches!(pair, ["reached", ":" | "="]));
+    // An assignment, and no comparison.
+    let said = tokens.windows(3).filter(|words| match words {
+        ["reached", mark @ ("=" | ":"), next] => next != mark,
+        _ => false,
+    });
     let complaint = |_| {
         format!(
             "src/{} sets reached: only the check of requirements may",
