@@ -1,7 +1,6 @@
 //! Fits of planar points.
 
 use std::collections::BTreeMap;
-use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 
@@ -33,7 +32,12 @@ const EXACT: f64 = 1e-11;
 const OUTER: usize = 4;
 
 /// The most extrema that are tried.
-const MOST_EXTREMA: usize = 40;
+const MOST_EXTREMA: usize = 80;
+
+/// Where the points are farther than so many tolerances, from this number of extrema on, the next numbers are left
+/// out: half as many as were tried. If that was too far, they are bisected.
+const FAR: f64 = 6.0;
+const SKIPS_FROM: usize = 4;
 
 /// Levels of fewer extrema that begin those of more.
 const RELEASED: usize = 3;
@@ -272,6 +276,24 @@ fn ends(points: &[DVec2], asked: &PlaneFit, unit: f64) -> Vec<EndCondition> {
     conditions
 }
 
+/// What a search for the fewest extrema knows.
+#[derive(Default)]
+struct Search {
+    known: BTreeMap<usize, Vec<Level>>,
+    trade_off: Vec<TradeOff>,
+    best: Option<Level>,
+}
+
+/// What a number of extrema brings.
+struct Searched {
+    /// Whether it keeps the tolerance.
+    keeps: bool,
+    /// Whether it is nearer than the best so far, by more than little.
+    gains: bool,
+    /// Whether the points are many tolerances off, or there is no curve.
+    is_far: bool,
+}
+
 struct Fit<'a> {
     prepared: &'a Prepared,
     asked: &'a PlaneFit,
@@ -369,44 +391,84 @@ impl Fit<'_> {
 
     /// The fit with the fewest extrema that keeps the tolerance, or else the nearest.
     fn fewest(&self) -> (Option<Level>, Vec<TradeOff>) {
-        let tolerance = self.prepared.tolerance;
-        let mut known: BTreeMap<usize, Vec<Level>> = BTreeMap::new();
-        let mut trade_off = Vec::new();
-        let mut best: Option<Level> = None;
-        let mut stale = 0;
-        for extrema in self.numbers() {
-            let near = known.range(extrema.saturating_sub(2)..extrema);
-            let last = near.flat_map(|(_, levels)| levels.iter().rev().take(RELEASED));
-            let fewer: Vec<Level> = last.cloned().collect();
-            let levels = self.task(extrema, Some(tolerance)).levels(&fewer);
-            trade_off.extend(self.trade_off(extrema, &levels));
-            known.insert(extrema, levels.clone());
-            let found = self.chosen(levels, true);
-            let is_near = found
-                .as_ref()
-                .is_some_and(|found| found.largest <= tolerance);
-            let known = best.as_ref().map_or(f64::INFINITY, |best| best.largest);
-            let gains = found
-                .as_ref()
-                .is_some_and(|found| found.largest < GAIN * known);
-            stale = if gains { 0 } else { stale + 1 };
-            best = match (best, found) {
-                (Some(best), Some(found)) if found.largest >= best.largest => Some(best),
-                (best, found) => found.or(best),
-            };
-            if is_near || stale >= STALE || self.progress.is_cancelled() {
+        let mut search = Search::default();
+        let (step, most) = self.numbers();
+        let (mut extrema, mut stale) = (0, 0);
+        // The largest number that misses the tolerance.
+        let mut missed = None;
+        while extrema <= most {
+            let found = self.searched(extrema, &mut search);
+            if found.keeps {
+                self.bisect([missed, Some(extrema)], step, &mut search);
                 break;
             }
+            stale = if found.gains || search.best.is_none() {
+                0
+            } else {
+                stale + 1
+            };
+            if stale >= STALE || self.progress.is_cancelled() {
+                break;
+            }
+            missed = Some(extrema);
+            let skipped = match found.is_far && extrema >= SKIPS_FROM {
+                true => extrema / 2 / step * step,
+                false => 0,
+            };
+            extrema = match extrema + step + skipped {
+                next if extrema < most => next.min(most / step * step).max(extrema + step),
+                next => next,
+            };
             self.progress.set_done((extrema as f64 / 10.0).min(0.9));
         }
-        (best, trade_off)
+        let mut trade_off = search.trade_off;
+        trade_off.sort_by_key(|it| it.extrema);
+        (search.best, trade_off)
     }
 
-    /// The numbers of extrema that are tried.
-    fn numbers(&self) -> impl Iterator<Item = usize> {
+    /// Try numbers of extrema between one that misses the tolerance and one that keeps it.
+    fn bisect(&self, [missed, kept]: [Option<usize>; 2], step: usize, search: &mut Search) {
+        let (Some(mut low), Some(mut high)) = (missed, kept) else {
+            return;
+        };
+        while high > low + step && !self.progress.is_cancelled() {
+            let middle = low + (high - low) / 2 / step * step;
+            match self.searched(middle, search).keeps {
+                true => high = middle,
+                false => low = middle,
+            }
+        }
+    }
+
+    /// Try a number of extrema, and keep what is better than the best so far: what keeps the tolerance with fewer
+    /// extrema, or else what is nearer.
+    fn searched(&self, extrema: usize, search: &mut Search) -> Searched {
+        let tolerance = self.prepared.tolerance;
+        let near = search.known.range(extrema.saturating_sub(2)..extrema);
+        let last = near.flat_map(|(_, levels)| levels.iter().rev().take(RELEASED));
+        let fewer: Vec<Level> = last.cloned().collect();
+        let levels = self.task(extrema, Some(tolerance)).levels(&fewer);
+        search.trade_off.extend(self.trade_off(extrema, &levels));
+        search.known.insert(extrema, levels.clone());
+        let found = self.chosen(levels, true);
+        let distance =
+            |level: &Option<Level>| level.as_ref().map_or(f64::INFINITY, |it| it.largest);
+        let [now, before] = [distance(&found), distance(&search.best)];
+        let keeps = now <= tolerance;
+        if keeps || (now < before && before > tolerance) {
+            search.best = found;
+        }
+        Searched {
+            keeps,
+            gains: now < GAIN * before,
+            is_far: now > FAR * tolerance,
+        }
+    }
+
+    /// The step between numbers of extrema, and the most.
+    fn numbers(&self) -> (usize, usize) {
         let step = if self.asked.periodic { 2 } else { 1 };
-        let numbers: RangeInclusive<usize> = 0..=MOST_EXTREMA.min(self.prepared.counting / 4);
-        numbers.step_by(step)
+        (step, MOST_EXTREMA.min(self.prepared.counting / 4))
     }
 
     fn trade_off(&self, extrema: usize, levels: &[Level]) -> Option<TradeOff> {
