@@ -80,6 +80,6 @@ pub use sampler::{BATCH_ORDER, Batch, Sampler};
 pub use segment_expansion::SegmentExpansion;
 pub use spacing::Spacing;
 pub use wording::{
-    SMALL, coordinate, counted, figure, noun, rounded_up, significant, to_resolution,
-    without_negative_zero,
+    SMALL, coordinate, counted, figure, noun, panic_message, rounded_up, significant,
+    to_resolution, without_negative_zero,
 };

@@ -1,8 +1,17 @@
-//! Numbers in messages.
+//! Numbers in messages, and the message of a panic.
+
+use std::any::Any;
 
 /// Say a number with its noun: "1 vertex", but "0 vertices" and "7 vertices".
 pub fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", noun(count, one, many))
+}
+
+/// Return the message of a panic that was caught; "no message" if its payload is not a text.
+pub fn panic_message(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+    text.unwrap_or("no message").to_owned()
 }
 
 /// Singular or plural noun for a count.

@@ -1,6 +1,5 @@
 //! Worker threads: jobs that own all they need, run one after the other beside the frame.
 
-use std::any::Any;
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -8,7 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::geometry::Progress;
+use crate::geometry::{Progress, panic_message};
 
 /// Run jobs of one kind, one after the other.
 ///
@@ -196,12 +195,6 @@ impl<T> Job<T> {
             result: result.map_err(|panic| panic_message(panic.as_ref())),
         }
     }
-}
-
-fn panic_message(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<String>().map(String::as_str);
-    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-    text.unwrap_or("no message").to_owned()
 }
 
 #[cfg(test)]
