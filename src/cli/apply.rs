@@ -10,12 +10,12 @@ use anyhow::{Context, anyhow, bail};
 use super::apply_arguments::misused;
 use super::ends::{Destination, Source};
 use super::items::{found, items, listed};
-use super::output;
+use super::output::{self, Messages};
 use super::progress::Progress as Line;
 use crate::document::{Curve, CurveId, Document, Edit, MergeError};
 use crate::geometry::Progress;
 use crate::geometry::expressions::LengthUnit;
-use crate::io::json_layout;
+use crate::io::{Format, json_layout};
 use crate::operations::{ALL, Inputs, Operands, Operation, OperationError, Outcome, Report, Value};
 
 /// The exit code of arguments that cannot be used.
@@ -23,6 +23,15 @@ const MISUSED: u8 = 2;
 
 /// How often a long operation is asked how far it has come.
 const PAUSE: Duration = Duration::from_millis(100);
+
+/// What a run of an operation did.
+#[derive(Debug)]
+pub(super) struct Done {
+    /// The report.
+    pub(super) report: Report,
+    /// Whether the destination was written; an error if it could not be.
+    pub(super) written: anyhow::Result<bool>,
+}
 
 /// An operation with where its input comes from and its result goes.
 pub(super) struct Application {
@@ -66,23 +75,19 @@ pub(super) fn list() -> anyhow::Result<()> {
 /// If the source cannot be read, the operation cannot run, or the destination cannot be written;
 /// nothing is written then.
 pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
-    let format = application.destination.format()?;
-    let input = application.input()?;
-    let (outcome, report) = match application.applied(&input) {
+    let Done { report, written } = match application.run(&Messages::Printed) {
         Ok(done) => done,
-        Err(error) if application.is_misused(&error) => {
-            let usage = misused(application.operation, &error.to_string());
+        Err(error) => {
+            let fault = error.downcast_ref::<OperationError>();
+            let Some(fault) = fault.filter(|it| application.is_misused(it)) else {
+                return Err(error);
+            };
+            let usage = misused(application.operation, &fault.to_string());
             output::usage(&usage.render().to_string());
             return Ok(ExitCode::from(MISUSED));
         }
-        Err(error) => return Err(error).with_context(|| application.place()),
     };
-    if outcome.reached || application.best {
-        let document = outcome.applied_to(input.document())?;
-        let export = format.write(&document, None);
-        let destination = &application.destination;
-        destination.write(export.with_context(|| destination.name())?)?;
-    }
+    written?;
     let text = match application.text {
         true => report.text(),
         false => json_layout::to_text(&report),
@@ -91,11 +96,11 @@ pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
         output::print_error(&text);
     } else {
         output::print(&text)?;
-        if !outcome.reached && !application.text {
+        if !report.reached && !application.text {
             output::message(&report.summary());
         }
     }
-    Ok(if outcome.reached {
+    Ok(if report.reached {
         ExitCode::SUCCESS
     } else {
         ExitCode::FAILURE
@@ -103,6 +108,42 @@ pub(super) fn run(application: &Application) -> anyhow::Result<ExitCode> {
 }
 
 impl Application {
+    /// Run the operation and write the document. Where what was asked for is not reached, nothing is written, or the
+    /// best found if that is wanted.
+    ///
+    /// # Errors
+    /// If the source cannot be read or the operation cannot run.
+    pub(super) fn run(&self, messages: &Messages) -> anyhow::Result<Done> {
+        let format = self.destination.format()?;
+        let input = self.input(messages)?;
+        let done = match messages {
+            Messages::Printed => self.applied(&input),
+            // Many files are told of together.
+            Messages::Kept(_) => self.outcome(&input, &Progress::default()),
+        };
+        let (outcome, report) = done.with_context(|| self.place())?;
+        let written = self.write(&input, &outcome, format, messages);
+        Ok(Done { report, written })
+    }
+
+    /// Write the document, if there is something to write.
+    fn write(
+        &self,
+        input: &Operands,
+        outcome: &Outcome,
+        format: &Format,
+        messages: &Messages,
+    ) -> anyhow::Result<bool> {
+        let is_wanted = outcome.reached || self.best;
+        if is_wanted {
+            let document = outcome.applied_to(input.document())?;
+            let export = format.write(&document, None);
+            let export = export.with_context(|| self.destination.name())?;
+            self.destination.write(export, messages)?;
+        }
+        Ok(is_wanted)
+    }
+
     /// Whether the arguments alone are at fault, whatever a file holds: nothing was read, two parameters exclude
     /// each other, or a direction has none.
     fn is_misused(&self, error: &OperationError) -> bool {
@@ -114,36 +155,42 @@ impl Application {
     }
 
     /// What messages name as the place of an error.
-    fn place(&self) -> String {
+    pub(super) fn place(&self) -> String {
         match &self.source {
             Some(source) => source.name(),
             None => self.operation.name.to_owned(),
         }
     }
 
-    fn input(&self) -> anyhow::Result<Operands> {
+    fn input(&self, messages: &Messages) -> anyhow::Result<Operands> {
         let document = match &self.source {
-            Some(source) => source.document(self.assumed_unit)?,
+            Some(source) => source.document(self.assumed_unit, messages)?,
             None => Document::default(),
         };
         let second = self.second.as_ref().map(|source| {
-            let document = source.document(self.assumed_unit)?;
+            let document = source.document(self.assumed_unit, messages)?;
             let chosen = self.only_second(&document);
             chosen.with_context(|| source.name())
         });
         let second = second.transpose()?;
-        self.chosen(document, second).with_context(|| self.place())
+        let chosen = self.chosen(document, second, messages);
+        chosen.with_context(|| self.place())
     }
 
     /// Choose the input of the operation in a document and in that of a second file, if there is one.
-    fn chosen(&self, document: Document, second: Option<Document>) -> anyhow::Result<Operands> {
+    fn chosen(
+        &self,
+        document: Document,
+        second: Option<Document>,
+        messages: &Messages,
+    ) -> anyhow::Result<Operands> {
         let inputs = self.operation.inputs;
         let choose =
             |active, others: &[CurveId]| Ok(Operands::choose(&document, inputs, active, others)?);
         match (inputs, second) {
             (Inputs::None | Inputs::UpToTwo, _) => choose(None, &[]),
             (Inputs::OneOrNone, _) if self.source.is_none() => choose(None, &[]),
-            (Inputs::Two, Some(second)) => self.with_second(document, &second),
+            (Inputs::Two, Some(second)) => self.with_second(document, &second, messages),
             (Inputs::Two, None) => {
                 let items = items(&document, inputs);
                 let named = |name: &String| found(&items, inputs, name);
@@ -187,7 +234,12 @@ impl Application {
     }
 
     /// Merge the second curve into the document that has the first one.
-    fn with_second(&self, mut document: Document, second: &Document) -> anyhow::Result<Operands> {
+    fn with_second(
+        &self,
+        mut document: Document,
+        second: &Document,
+        messages: &Messages,
+    ) -> anyhow::Result<Operands> {
         let first = self.item(&document, Inputs::Two, 0)?;
         let id = document.next_id();
         let name = |document: &Document| document.names().map(str::to_owned).next();
@@ -198,7 +250,7 @@ impl Application {
             error => error.into(),
         })?;
         if let (Some(remark), Some(source)) = (merge.remark, &self.second) {
-            output::message(&format!("{}: {remark}", source.name()));
+            messages.tell(&format!("{}: {remark}", source.name()));
         }
         for edit in merge.edits {
             document.apply(edit)?;

@@ -1,6 +1,5 @@
 //! The arguments of `batten apply`, made from the descriptions of the operations.
 
-use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 
 use clap::builder::ValueParser;
@@ -8,12 +7,13 @@ use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, value_parser};
 
 use super::choice_parser::{Assignments, ChoiceParser, no_such_parameter};
-use super::parsers::{columns, format_parser, unit_parser};
+use super::many_files::ManyFiles;
+use super::parsers::{columns, format_parser, jobs, unit_parser};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::references::{KINDS, ReferenceCurve};
 use crate::io::formats;
-use crate::io::{ColumnChoice, Format};
+use crate::io::{ColumnChoice, Format, shown_path};
 use crate::operations::{
     ALL, Choice, Inputs, Kind, Operation, OperationError, Parameter, Value, find,
 };
@@ -22,6 +22,7 @@ const LIST: &str = "list";
 const IN: &str = "IN";
 const SECOND: &str = "SECOND";
 const OUT: &str = "OUT";
+const MORE: &str = "FILE";
 const CURVE: &str = "curve";
 const WITH: &str = "with";
 const FROM_FORMAT: &str = "from-format";
@@ -30,6 +31,9 @@ const TO_FORMAT: &str = "to-format";
 const ASSUME_UNIT: &str = "assume-unit";
 const BEST: &str = "best";
 const TEXT: &str = "text";
+const OUT_DIR: &str = "out-dir";
+const JOBS: &str = "jobs";
+const FULL: &str = "full";
 
 /// What `batten apply` is asked for.
 #[derive(Debug)]
@@ -53,6 +57,8 @@ pub(super) struct Given {
     pub(super) columns: Option<ColumnChoice>,
     /// The file to write.
     pub(super) out: PathBuf,
+    /// The many files to read and to write instead.
+    pub(super) many: Option<ManyFiles>,
     /// The format to write, if it is told.
     pub(super) to_format: Option<&'static Format>,
     /// The file that the second of two curves comes from; `None` if from the same.
@@ -123,9 +129,8 @@ impl Given {
     /// Take the arguments of an operation from its command.
     ///
     /// # Errors
-    /// A reference cannot be read.
+    /// A reference cannot be read, or there are not as many files as the operation takes.
     pub(super) fn new(operation: &'static Operation, matches: &ArgMatches) -> Result<Self, String> {
-        let path = |name| matches.try_get_one::<PathBuf>(name).ok().flatten().cloned();
         let format = |name| matches.try_get_one::<&Format>(name).ok().flatten().copied();
         let name = |name| matches.try_get_one::<String>(name).ok().flatten().cloned();
         let parameters = operation.parameters.iter();
@@ -134,28 +139,36 @@ impl Given {
             given.cloned().unwrap_or_default()
         });
         let mut values: Vec<(&'static str, Value)> = values.collect();
-        let mut input = path(IN);
-        match matches.try_get_one::<Origin>(IN).ok().flatten() {
-            Some(Origin::File(path)) => input = Some(path.clone()),
-            Some(Origin::Reference(text)) => {
-                let interval = interval_given(&values);
-                let reference = ReferenceCurve::from_text_over(text, interval);
-                let reference = reference.map_err(|error| format!("“{text}”: {error}"))?;
-                let reference = Box::new(reference);
-                let parameters = operation.parameters.iter();
-                let takes = |it: &&Parameter| matches!(it.kind, Kind::Reference { .. });
-                let value = Value::Reference(Some(reference.clone()));
-                values.extend(parameters.filter(takes).map(|it| (it.name, value.clone())));
-            }
-            None => {}
+        let many = many_files(operation, matches)?;
+        let Files {
+            mut input,
+            second,
+            out,
+        } = match many {
+            Some(_) => Files::default(),
+            None => Files::of(operation.inputs, paths(matches))?,
+        };
+        let text = input.as_deref().and_then(Path::to_str);
+        let text = text.filter(|text| operation.inputs == Inputs::OneOrNone && is_reference(text));
+        if let Some(text) = text {
+            let interval = interval_given(&values);
+            let reference = ReferenceCurve::from_text_over(text, interval);
+            let reference = reference.map_err(|error| format!("“{text}”: {error}"))?;
+            let reference = Box::new(reference);
+            let parameters = operation.parameters.iter();
+            let takes = |it: &&Parameter| matches!(it.kind, Kind::Reference { .. });
+            let value = Value::Reference(Some(reference.clone()));
+            values.extend(parameters.filter(takes).map(|it| (it.name, value.clone())));
+            input = None;
         }
         Ok(Self {
             operation,
             input,
-            second: path(SECOND),
+            second,
             from_format: format(FROM_FORMAT),
             columns: matches.try_get_one(COLUMNS).ok().flatten().cloned(),
-            out: path(OUT).unwrap_or_default(),
+            out,
+            many,
             to_format: format(TO_FORMAT),
             curves: [CURVE, WITH].map(name),
             values,
@@ -200,6 +213,107 @@ impl Given {
     }
 }
 
+/// The files of a single run.
+#[derive(Default)]
+struct Files {
+    input: Option<PathBuf>,
+    second: Option<PathBuf>,
+    out: PathBuf,
+}
+
+impl Files {
+    /// Tell by their number which files are which.
+    fn of(inputs: Inputs, paths: Vec<PathBuf>) -> Result<Self, String> {
+        let most = match inputs {
+            Inputs::None | Inputs::UpToTwo => 1,
+            Inputs::One | Inputs::OneOrNone | Inputs::Points => 2,
+            Inputs::Two => 3,
+        };
+        if let Some(path) = paths.get(most) {
+            let hint = match takes_one(inputs) {
+                true => ": --out-dir DIR takes many files",
+                false => "",
+            };
+            return Err(format!("unexpected argument “{}”{hint}", shown_path(path)));
+        }
+        let mut paths = paths.into_iter();
+        match (paths.next(), paths.next(), paths.next()) {
+            (Some(out), None, _) if most == 1 => Ok(Self {
+                out,
+                ..Self::default()
+            }),
+            (input, Some(out), None) => Ok(Self {
+                input,
+                second: None,
+                out,
+            }),
+            (input, second, Some(out)) => Ok(Self { input, second, out }),
+            _ => Err("OUT, the file to write, is required".to_owned()),
+        }
+    }
+}
+
+/// The files as they are typed.
+fn paths(matches: &ArgMatches) -> Vec<PathBuf> {
+    let names = [IN, SECOND, OUT, MORE].into_iter();
+    let typed = names.filter_map(|name| matches.try_get_raw(name).ok().flatten());
+    typed.flatten().map(PathBuf::from).collect()
+}
+
+/// Take the arguments of many files, if there is a folder for their results.
+fn many_files(
+    operation: &'static Operation,
+    matches: &ArgMatches,
+) -> Result<Option<ManyFiles>, String> {
+    let Some(folder) = matches.get_one::<PathBuf>(OUT_DIR) else {
+        return Ok(None);
+    };
+    let name = operation.name;
+    if !takes_one(operation.inputs) {
+        let number = match operation.inputs {
+            Inputs::Two => "up to two files",
+            _ => "no file",
+        };
+        return Err(format!(
+            "--out-dir is for operations that take one file: {name} takes {number}"
+        ));
+    }
+    let files = paths(matches);
+    let is_reference = |path: &&PathBuf| path.to_str().is_some_and(ReferenceCurve::is_text);
+    let mut references = files.iter().filter(is_reference);
+    if let (Inputs::OneOrNone, Some(path)) = (operation.inputs, references.next()) {
+        let shown = shown_path(path);
+        return Err(format!("“{shown}” is a reference: --out-dir takes files"));
+    }
+    let format = matches.get_one::<&Format>(TO_FORMAT).copied();
+    Ok(Some(ManyFiles {
+        files: ManyFiles::named(files, folder, format)?,
+        folder: folder.clone(),
+        jobs: matches.get_one(JOBS).copied(),
+        full: matches.get_flag(FULL),
+    }))
+}
+
+/// Whether an operation takes just one file, so that many can go through it.
+fn takes_one(inputs: Inputs) -> bool {
+    matches!(inputs, Inputs::One | Inputs::OneOrNone | Inputs::Points)
+}
+
+/// The usage of an operation: the files that it takes.
+fn usage(operation: &Operation) -> String {
+    let files = match operation.inputs {
+        Inputs::None | Inputs::UpToTwo => "<OUT>",
+        Inputs::One | Inputs::Points => "<IN> <OUT>",
+        Inputs::OneOrNone => "<REFERENCE|IN> <OUT>",
+        Inputs::Two => "<IN> [SECOND] <OUT>",
+    };
+    let start = format!("batten apply {} [OPTIONS]", operation.name);
+    match takes_one(operation.inputs) {
+        true => format!("{start} {files}\n       {start} --out-dir <DIR> <FILE>..."),
+        false => format!("{start} {files}"),
+    }
+}
+
 /// The error of an operation's arguments, with its usage.
 pub(super) fn misused(operation: &'static Operation, message: &str) -> Error {
     let command = command_of(operation).bin_name(format!("batten apply {}", operation.name));
@@ -216,12 +330,11 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         Inputs::Two => (Some(CURVES), true, true),
         Inputs::Points => (Some(POINTS), true, false),
     };
-    let mut command = Command::new(operation.name).about(operation.help);
+    let command = Command::new(operation.name).about(operation.help);
+    let mut command = command.override_usage(usage(operation));
     if let Some(help) = input {
         let argument = match operation.inputs {
-            Inputs::OneOrNone => path_argument(IN, help)
-                .value_name("REFERENCE|IN")
-                .value_parser(|text: &str| Ok::<_, Infallible>(Origin::of(text))),
+            Inputs::OneOrNone => path_argument(IN, help).value_name("REFERENCE|IN"),
             _ => path_argument(IN, help),
         };
         command = command.arg(argument).arg(format_argument(
@@ -236,11 +349,19 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         command = command.arg(unit.help("The unit of a file that states none"));
     }
     if has_other {
-        command = command
-            .allow_missing_positional(true)
-            .arg(path_argument(SECOND, SECOND_FILE).required(false));
+        command = command.arg(path_argument(SECOND, SECOND_FILE).required(false));
     }
-    command = command.arg(path_argument(OUT, "The file to write, or - for the standard output, the report going to stderr then; its extension tells the format"));
+    let out = path_argument(
+        OUT,
+        "The file to write, or - for the standard output, the report going to stderr then; its extension tells the format",
+    );
+    let out = out.required(false);
+    command = command.arg(match has_other {
+        // Of two files the last is this one.
+        true => out,
+        false => out.required_unless_present(OUT_DIR),
+    });
+    command = command.args(arguments_of_many(operation));
     command = command.arg(format_argument(
         TO_FORMAT,
         "The format to write, whatever the file's extension; needed for the standard output",
@@ -275,6 +396,23 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         .arg(text.help("Print the report as text instead of JSON"))
 }
 
+/// The arguments of many files; those of an operation that does not take them are only refused.
+fn arguments_of_many(operation: &Operation) -> [Arg; 4] {
+    let more = path_argument(MORE, "More files to read").required(false);
+    let folder = option(OUT_DIR).value_name("DIR").conflicts_with(TEXT);
+    let folder = folder.value_parser(value_parser!(PathBuf));
+    let number = option(JOBS).value_name("N").value_parser(jobs);
+    let full = option(FULL).action(ArgAction::SetTrue);
+    let is_hidden = !takes_one(operation.inputs);
+    let full = full.help("Add the whole report and the messages to each line of --out-dir");
+    [
+        more.num_args(0..).hide(true),
+        folder.help("Read all the files named, and write DIR/STEM.batten, or --to-format, for each; print a line of JSON for each").hide(is_hidden),
+        number.requires(OUT_DIR).help("How many files of --out-dir to work on at once; default: all cores").hide(is_hidden),
+        full.requires(OUT_DIR).hide(is_hidden),
+    ]
+}
+
 /// The interval of a reference that the parameters ask for: only there it needs points.
 fn interval_given(values: &[(&'static str, Value)]) -> [Option<f64>; 2] {
     ["from", "to"].map(|name| {
@@ -285,24 +423,10 @@ fn interval_given(values: &[(&'static str, Value)]) -> [Option<f64>; 2] {
     })
 }
 
-/// The input of an operation on a curve or a reference.
-#[derive(Clone, Debug)]
-enum Origin {
-    File(PathBuf),
-    /// The text of a reference, which is read once its interval is known.
-    Reference(String),
-}
-
-impl Origin {
-    /// Take a text for a reference if it begins with the name of a kind, or with another word that names no
-    /// file; else it is a path.
-    fn of(text: &str) -> Self {
-        if ReferenceCurve::is_text(text) || is_unknown_word(text) {
-            Self::Reference(text.to_owned())
-        } else {
-            Self::File(PathBuf::from(text))
-        }
-    }
+/// Take a text for a reference if it begins with the name of a kind, or with another word that names no
+/// file; else it is a path.
+fn is_reference(text: &str) -> bool {
+    ReferenceCurve::is_text(text) || is_unknown_word(text)
 }
 
 /// Whether a text is neither a file nor a name with an extension, but a word that could be a reference

@@ -6,8 +6,9 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Error, Parser, Subcommand};
 
 use super::apply::Application;
-use super::apply_arguments::ApplyArguments;
+use super::apply_arguments::{ApplyArguments, Given};
 use super::ends::{Destination, Source};
+use super::many_files::ManyFiles;
 use super::parsers::{
     columns, count, example_parser, format_parser, parameter, polygon_parser, spacing_parser,
     tolerance, unit_parser,
@@ -128,10 +129,11 @@ enum Command {
         #[arg(long, value_name = "NAME")]
         curve: Option<String>,
     },
-    /// Apply an operation to a curve of a file, and print what it did as JSON
+    /// Apply an operation to a curve of a file, or of each of many, and print what it did as JSON
     ///
     /// The file that is written holds everything that was read, with the changes made. Nothing is
-    /// written, and the exit status is 1, if what was asked for is not reached.
+    /// written, and the exit status is 1, if what was asked for is not reached. With --out-dir
+    /// many files go through the operation, each on its own.
     Apply(ApplyArguments),
     /// List the references that `batten apply approximate` knows, with their parameters
     References,
@@ -198,6 +200,8 @@ pub(super) enum Task {
     Operations,
     /// Apply an operation.
     Apply(Application),
+    /// Apply an operation to many files, each by its own application.
+    ApplyToMany(ManyFiles, Vec<Application>),
     /// List the kinds of references.
     References,
     /// Print curves and references in numbers.
@@ -215,14 +219,6 @@ impl Arguments {
     /// # Errors
     /// The usage, if a word is neither a command nor a file, or a format is missing.
     pub(super) fn checked(self) -> Result<Task, Error> {
-        let source = |name, path, format, columns| {
-            let needed = "--from-format says what the standard input holds, and is needed with “-”";
-            Source::new(path, format, columns).ok_or_else(|| missing(name, needed))
-        };
-        let destination = |name, path, format| {
-            let needed = "--to-format says what the standard output gets, and is needed with “-”";
-            Destination::new(path, format).ok_or_else(|| missing(name, needed))
-        };
         Ok(match self.command {
             None => Task::Editor(files(self.files)?),
             Some(Command::Example {
@@ -269,23 +265,17 @@ impl Arguments {
                 curve,
             },
             Some(Command::Apply(ApplyArguments::List)) => Task::Operations,
-            Some(Command::Apply(ApplyArguments::Run(given))) => Task::Apply(Application {
-                operation: given.operation,
-                source: given
-                    .input
-                    .map(|input| source("apply", input, given.from_format, given.columns.clone()))
-                    .transpose()?,
-                second: given
-                    .second
-                    .map(|second| source("apply", second, given.from_format, given.columns.clone()))
-                    .transpose()?,
-                destination: destination("apply", given.out, given.to_format)?,
-                curves: given.curves,
-                values: given.values,
-                assumed_unit: given.assumed_unit,
-                best: given.best,
-                text: given.text,
-            }),
+            Some(Command::Apply(ApplyArguments::Run(mut given))) => match given.many.take() {
+                Some(many) => {
+                    let applications = many
+                        .files
+                        .iter()
+                        .map(|[file, out]| application(&given, Some(file.clone()), out.clone()));
+                    let applications = applications.collect::<Result<_, _>>()?;
+                    Task::ApplyToMany(many, applications)
+                }
+                None => Task::Apply(application(&given, given.input.clone(), given.out.clone())?),
+            },
             Some(Command::References) => Task::References,
             Some(Command::Inspect {
                 file,
@@ -298,6 +288,41 @@ impl Arguments {
             },
         })
     }
+}
+
+fn source(
+    command: &str,
+    path: PathBuf,
+    format: Option<&'static Format>,
+    columns: Option<ColumnChoice>,
+) -> Result<Source, Error> {
+    let needed = "--from-format says what the standard input holds, and is needed with “-”";
+    Source::new(path, format, columns).ok_or_else(|| missing(command, needed))
+}
+
+fn destination(
+    command: &str,
+    path: PathBuf,
+    format: Option<&'static Format>,
+) -> Result<Destination, Error> {
+    let needed = "--to-format says what the standard output gets, and is needed with “-”";
+    Destination::new(path, format).ok_or_else(|| missing(command, needed))
+}
+
+/// Apply an operation as it is given to one file.
+fn application(given: &Given, input: Option<PathBuf>, out: PathBuf) -> Result<Application, Error> {
+    let source = |path| source("apply", path, given.from_format, given.columns.clone());
+    Ok(Application {
+        operation: given.operation,
+        source: input.map(source).transpose()?,
+        second: given.second.clone().map(source).transpose()?,
+        destination: destination("apply", out, given.to_format)?,
+        curves: given.curves.clone(),
+        values: given.values.clone(),
+        assumed_unit: given.assumed_unit,
+        best: given.best,
+        text: given.text,
+    })
 }
 
 /// Take files to open, unless the first is a word that can only be a command misspelled.

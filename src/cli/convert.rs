@@ -3,6 +3,7 @@
 use anyhow::{Context, bail};
 
 use super::ends::{Destination, Source};
+use super::output::Messages;
 use crate::document::Document;
 use crate::geometry::PolygonKind;
 use crate::geometry::expressions::LengthUnit;
@@ -26,7 +27,7 @@ pub(super) fn convert(
             destination.name()
         );
     }
-    let document = source.document(assumed_unit)?;
+    let document = source.document(assumed_unit, &Messages::Printed)?;
     let (export, format) = exported(&document, destination, polygon)?;
     // A float polygon is read back as it is.
     let is_converted = polygon.is_some_and(|kind| kind != PolygonKind::Float);
@@ -40,7 +41,7 @@ pub(super) fn convert(
             destination.name()
         );
     }
-    destination.write(export)
+    destination.write(export, &Messages::Printed)
 }
 
 /// Write an example.
@@ -49,7 +50,8 @@ pub(super) fn convert(
 /// If the destination cannot be written.
 pub(super) fn example(example: &Example, destination: &Destination) -> anyhow::Result<()> {
     let document = example.read()?.into_document()?;
-    destination.write(exported(&document, destination, None)?.0)
+    let (export, _) = exported(&document, destination, None)?;
+    destination.write(export, &Messages::Printed)
 }
 
 fn exported(

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 
-use super::output;
+use super::output::{self, Messages};
 use crate::document::Document;
 use crate::geometry::expressions::LengthUnit;
 use crate::io::{
@@ -42,11 +42,11 @@ impl Source {
         })
     }
 
-    /// Read it, and print its remarks.
+    /// Read it, and tell its remarks.
     ///
     /// # Errors
     /// [`FileError`], naming the source and the place in it.
-    pub(super) fn read(&self) -> anyhow::Result<Reading> {
+    pub(super) fn read(&self, messages: &Messages) -> anyhow::Result<Reading> {
         let columns = self.columns.as_ref();
         let reading = match (&self.path, self.format) {
             (None, Some(format)) => {
@@ -65,7 +65,7 @@ impl Source {
             }) => anyhow!("{error} with --columns, as in --columns 1,2"),
             _ => error.into(),
         })?;
-        output::report(&self.name(), &reading.remarks);
+        messages.report(&self.name(), &reading.remarks);
         Ok(reading)
     }
 
@@ -73,8 +73,12 @@ impl Source {
     ///
     /// # Errors
     /// As [`Source::read`].
-    pub(super) fn document(&self, assumed: Option<LengthUnit>) -> anyhow::Result<Document> {
-        let document = self.read()?.into_document()?;
+    pub(super) fn document(
+        &self,
+        assumed: Option<LengthUnit>,
+        messages: &Messages,
+    ) -> anyhow::Result<Document> {
+        let document = self.read(messages)?.into_document()?;
         let unit = document.unit().or(assumed);
         Ok(document.with_unit(unit))
     }
@@ -130,21 +134,21 @@ impl Destination {
         }
     }
 
-    /// Write an export, and print its losses.
+    /// Write an export, and tell its losses.
     ///
     /// # Errors
     /// If it cannot be written.
-    pub(super) fn write(&self, export: Export) -> anyhow::Result<()> {
+    pub(super) fn write(&self, export: Export, messages: &Messages) -> anyhow::Result<()> {
         match self {
             Self::Standard(_) => {
                 output::print_bytes(&export.bytes)?;
-                output::message(&export.losses.to_string());
+                messages.tell(&export.losses.to_string());
             }
             Self::File(path, _) => {
                 let saved = disk::write_export(path, export)?;
-                output::message(&saved.losses.to_string());
+                messages.tell(&saved.losses.to_string());
                 if let Some(line) = saved.broken_links() {
-                    output::message(&format!("{}: {line}", self.name()));
+                    messages.tell(&format!("{}: {line}", self.name()));
                 }
             }
         }

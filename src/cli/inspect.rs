@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::ends::Source;
 use super::feature_lists::FeatureLists;
 use super::inspected_reference::InspectedReference;
-use super::output;
+use super::output::{self, Messages};
 use super::progress::Progress;
 use crate::document::Curve;
 use crate::geometry::expressions::LengthUnit;
@@ -28,7 +28,7 @@ pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
         references,
         unit,
         ..
-    } = source.read()?;
+    } = source.read(&Messages::Printed)?;
     for (index, curve) in curves.iter().enumerate() {
         let last = curve.polygon.segments() as f64;
         if let Some(u) = at.iter().find(|u| !(0.0..=last).contains(*u)) {

@@ -4,6 +4,7 @@
 mod apply;
 mod apply_arguments;
 mod arguments;
+mod batch;
 mod choice_parser;
 mod convert;
 mod ends;
@@ -11,6 +12,7 @@ mod feature_lists;
 mod inspect;
 mod inspected_reference;
 mod items;
+mod many_files;
 mod output;
 mod parsers;
 mod points;
@@ -58,6 +60,9 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
         Ok(Task::References) => references::list(),
         Ok(Task::Apply(application)) => {
             return Request::Done(exit_code(apply::run(&application)));
+        }
+        Ok(Task::ApplyToMany(many, applications)) => {
+            return Request::Done(exit_code(batch::run(&many, &applications)));
         }
         Ok(Task::Points {
             source,

@@ -1,9 +1,44 @@
 //! Printing to readers that may go away.
 
+use std::cell::RefCell;
 use std::io::{self, ErrorKind, Write};
 
 use crate::document::cut;
 use crate::io::Remarks;
+
+/// Where the remarks on files go.
+#[derive(Debug)]
+pub(super) enum Messages {
+    /// To the standard error, at once.
+    Printed,
+    /// Into a list, where they belong to one file among many.
+    Kept(RefCell<Vec<String>>),
+}
+
+impl Messages {
+    /// Tell a text, line by line.
+    pub(super) fn tell(&self, text: &str) {
+        match self {
+            Self::Printed => message(text),
+            Self::Kept(list) => list.borrow_mut().extend(text.lines().map(str::to_owned)),
+        }
+    }
+
+    /// Return the lines that were kept.
+    pub(super) fn into_lines(self) -> Vec<String> {
+        match self {
+            Self::Printed => Vec::new(),
+            Self::Kept(list) => list.into_inner(),
+        }
+    }
+
+    /// Tell the remarks on a file, each line with the file in front.
+    pub(super) fn report(&self, name: &str, remarks: &Remarks) {
+        for line in remarks.to_string().lines() {
+            self.tell(&format!("{name}: {line}"));
+        }
+    }
+}
 
 /// Print to the standard output. A reader that has gone away wants no more, which is no error.
 pub(super) fn print(text: &str) -> anyhow::Result<()> {
@@ -25,13 +60,6 @@ pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
             Err(anyhow::Error::new(error).context("cannot write to the standard output"))
         }
         _ => Ok(()),
-    }
-}
-
-/// Print remarks on a file to the standard error, each line with the file in front.
-pub(super) fn report(name: &str, remarks: &Remarks) {
-    for line in remarks.to_string().lines() {
-        message(&format!("{name}: {line}"));
     }
 }
 

@@ -7,8 +7,8 @@ use crate::geometry::{PolygonKind, Spacing};
 use crate::io::examples::{EXAMPLES, Example};
 use crate::io::{ColumnChoice, Format, formats};
 
-/// The most points that are written.
-const MOST_POINTS: usize = 1_000_000;
+/// The most points that are written, and the most threads that may be asked for.
+const MOST: usize = 1_000_000;
 
 /// Read a format by its extension.
 pub(super) fn format_parser(
@@ -29,12 +29,21 @@ pub(super) fn spacing_parser() -> impl TypedValueParser<Value = Spacing> {
 
 /// Read a number of points, which may be an expression.
 pub(super) fn count(text: &str) -> Result<usize, String> {
+    whole(text, 2)
+}
+
+/// Read a number of threads, which may be an expression.
+pub(super) fn jobs(text: &str) -> Result<usize, String> {
+    whole(text, 1)
+}
+
+fn whole(text: &str, least: usize) -> Result<usize, String> {
     let number = NumberContext::default().read(text);
     let number = number.map_err(|mistake| mistake.to_string())?;
-    let is_count = number.fract() == 0.0 && (2.0..=MOST_POINTS as f64).contains(&number);
+    let is_count = number.fract() == 0.0 && (least as f64..=MOST as f64).contains(&number);
     match is_count {
         true => Ok(number as usize),
-        false => Err(format!("a whole number from 2 to {MOST_POINTS} is needed")),
+        false => Err(format!("a whole number from {least} to {MOST} is needed")),
     }
 }
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::ends::{Destination, Source};
 use super::items::{found, items, listed};
-use super::output;
+use super::output::{self, Messages};
 use crate::document::{CurveId, Document, Reference, quoted};
 use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use crate::geometry::{
@@ -33,7 +33,7 @@ pub(super) fn run(
     name: Option<&str>,
 ) -> anyhow::Result<()> {
     let format = destination.format()?;
-    let document = source.document(None)?;
+    let document = source.document(None, &Messages::Printed)?;
     let id = chosen(&document, name).with_context(|| source.name())?;
     let curve: &dyn ParametricCurve = match (document.curve(id), document.reference(id)) {
         (Some(curve), _) => &curve.polygon,
@@ -56,7 +56,8 @@ pub(super) fn run(
     let reference = Reference::new(title, ReferenceCurve::of(ReferenceForm::Points(list))?);
     let points = Document::default().with_references([reference]);
     let export = format.write(&points.with_unit(document.unit()), None);
-    destination.write(export.with_context(|| destination.name())?)?;
+    let export = export.with_context(|| destination.name())?;
+    destination.write(export, &Messages::Printed)?;
     output::message(&format!(
         "{}; the polyline through them is within {} of {}",
         counted(parameters.len(), "point", "points"),

@@ -212,6 +212,15 @@ pub(super) fn lock(path: &Path) -> Result<Option<FileLock>, FileProblem> {
     }
 }
 
+/// Create a folder, and those that it is in, where they are not there.
+///
+/// # Errors
+/// [`FileError`], naming the folder.
+pub fn create_folder(path: &Path) -> Result<(), FileError> {
+    let created = fs::create_dir_all(path);
+    created.map_err(|error| FileError::at(path)(FileProblem::Folder(error)))
+}
+
 /// Create a folder with a name of its own in another, which is made if it is not there.
 pub(super) fn create_own_folder(parent: &Path) -> Result<PathBuf, FileProblem> {
     fs::create_dir_all(parent).map_err(FileProblem::system("create"))?;

@@ -482,6 +482,9 @@ pub enum FileProblem {
         /// The error of the system.
         error: io::Error,
     },
+    /// The system refused to create a folder.
+    #[error("cannot create the folder: {0}")]
+    Folder(io::Error),
     /// The folder that it would be in is not there.
     #[error("the folder {} does not exist: create it first", shown_path(.0))]
     NoFolder(PathBuf),

@@ -20,6 +20,15 @@ pub fn to_text<T: Serialize>(value: &T) -> String {
     String::from_utf8(bytes).expect("JSON is UTF-8")
 }
 
+/// Write a value as JSON text of a single line, with the numbers of [`to_text`].
+///
+/// # Panics
+/// As [`to_text`].
+pub fn to_line<T: Serialize>(value: &T) -> String {
+    let result = serde_json::to_string(value);
+    result.expect("plain data can be written to memory") + "\n"
+}
+
 /// Lay out arrays by their content: what separates two elements is written when it is known
 /// whether the next one is a scalar, which stays on the line, or not.
 #[derive(Default)]

@@ -58,6 +58,34 @@ impl Report {
         Some(figures.find(|figure| figure.name == name)?.value.clone())
     }
 
+    /// Return how far the curve moves, as a length: 0 where it is the same; `None` if that is not measured.
+    pub(super) fn moved(&self) -> Option<f64> {
+        match self.deviation {
+            Deviation::Exact => Some(0.0),
+            Deviation::AtMost(length)
+            | Deviation::Measured(length)
+            | Deviation::FromPoints(length) => Some(length),
+            Deviation::Unmeasured => None,
+        }
+    }
+
+    /// Return the largest distance of the result from what it stands for: the figure `largest` of operations that
+    /// have one, of others the deviation. `None` if that is not measured or there is no result.
+    pub fn largest(&self) -> Option<f64> {
+        let largest = match self.figure("largest") {
+            Some(Value::Real(length)) => Some(length),
+            _ => self.moved(),
+        };
+        largest.filter(|_| self.useful)
+    }
+
+    /// Count the proved curvature extrema of the result, in all curves that are made or changed. `None` if there is
+    /// no result, or until they are proved.
+    pub fn extrema(&self) -> Option<usize> {
+        let features = self.features.as_ref().filter(|_| self.useful)?;
+        Some(features.after.iter().map(|it| it.curvature_extrema).sum())
+    }
+
     /// Find the first level in which an approximation has another shape than what it follows.
     pub fn differing_level(&self) -> Option<&LevelComparison> {
         let mut levels = self.equivalence.iter().flatten();

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::json;
 
-use super::outcome::Deviation;
 use super::report::Report;
 use super::value::Value;
 use crate::geometry::approximation::LevelComparison;
@@ -22,14 +21,7 @@ impl Serialize for Report {
         map.serialize_entry("operation", self.name)?;
         map.serialize_entry("reached", &self.reached)?;
         map.serialize_entry("residual", &self.residual)?;
-        let deviation = match self.deviation {
-            Deviation::Exact => Some(0.0),
-            Deviation::AtMost(length)
-            | Deviation::Measured(length)
-            | Deviation::FromPoints(length) => Some(length),
-            Deviation::Unmeasured => None,
-        };
-        map.serialize_entry("deviation", &deviation)?;
+        map.serialize_entry("deviation", &self.moved())?;
         map.serialize_entry("largest_move", &self.largest_move)?;
         let features = self.features.as_ref();
         let before = features.map(|features| &features.before);

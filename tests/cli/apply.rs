@@ -386,6 +386,17 @@ fn two_curves_are_joined_from_one_file_or_two() {
         "a",
     ];
     folder.done(&[&two[..], &["--bridge", "4"]].concat());
+    // Options may stand between the files.
+    folder.done(&[
+        "apply",
+        "join",
+        "a.batten",
+        "--with",
+        "a",
+        "b.batten",
+        "--bridge=4",
+        "two.batten",
+    ]);
     for file in ["one.batten", "two.batten"] {
         for (index, vertex) in vertices(file).iter().enumerate() {
             assert!((vertex[0] - index as f64).abs() < 1e-9, "{vertex:?}");

@@ -1,6 +1,7 @@
 //! The real program from a shell.
 
 mod apply;
+mod batch;
 mod between;
 mod folder;
 mod inspect;

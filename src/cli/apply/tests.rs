@@ -138,7 +138,7 @@ fn apply(
         text: false,
     };
     let document = Document::from_curves(curves.to_vec());
-    let input = application.chosen(document, None);
+    let input = application.chosen(document, None, &Messages::Printed);
     let input = input.map_err(|error| error.to_string())?;
     let done = application.applied(&input);
     let (outcome, report) = done.map_err(|error| error.to_string())?;
