@@ -5,7 +5,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::jet::Jet;
 use crate::geometry::sampler::{BATCH_ORDER, Batch, Sampler};
 
-/// Extrema with a smaller prominence, as a share of the range of values, count as ripple.
+/// Extrema that differ by a smaller share of the extrema beside them count as ripple.
 const RIPPLE: f64 = 0.05;
 
 /// Samples of a segment, taken before its proof.
@@ -126,8 +126,8 @@ pub(super) fn counted(
     }
 }
 
-/// Count the features that are more than ripple: extrema with a prominence of at least 5 % of the
-/// range of values, and the changes of sign between those and the ends.
+/// Count the features that are more than ripple: extrema that stand out from their neighbours, and the changes of
+/// sign between those and the ends.
 pub(super) fn significant(
     polygon: &FloatPolygon,
     features: &Features,
@@ -136,22 +136,33 @@ pub(super) fn significant(
     let planar = polygon.is_planar();
     let cyclic = polygon.is_periodic() && stretch[1] - stretch[0] >= polygon.segments() as f64;
     let sequence = |extrema: &[Extremum], value: &dyn Fn(&Jet) -> f64| {
+        let peak = |u: f64, known: f64| {
+            let jet = polygon.jet(u);
+            let value = if known.is_finite() {
+                known
+            } else {
+                value(&jet)
+            };
+            let weight = jet.first.length_squared();
+            Peak { value, weight }
+        };
         let inside = extrema
             .iter()
             .filter(|extremum| extremum.u[1] >= stretch[0] && extremum.u[0] <= stretch[1]);
-        let mut values: Vec<f64> = inside
+        let mut peaks: Vec<Peak> = inside
             .map(|extremum| {
                 let [low, high] = extremum.value;
-                let middle = 0.5 * (low + high);
-                let at = || value(&polygon.jet(0.5 * (extremum.u[0] + extremum.u[1])));
-                if middle.is_finite() { middle } else { at() }
+                peak(0.5 * (extremum.u[0] + extremum.u[1]), 0.5 * (low + high))
             })
             .collect();
         if !cyclic {
-            values.insert(0, value(&polygon.jet(stretch[0])));
-            values.push(value(&polygon.jet(stretch[1])));
+            peaks.insert(0, peak(stretch[0], f64::NAN));
+            peaks.push(peak(stretch[1], f64::NAN));
         }
-        prominent(values, cyclic)
+        let left = prominent(peaks, cyclic);
+        left.into_iter()
+            .map(|peak| peak.value)
+            .collect::<Vec<f64>>()
     };
     let curvature = sequence(&features.curvature_extrema, &|jet| jet.curvature_of(planar));
     let torsion = if planar {
@@ -167,32 +178,52 @@ pub(super) fn significant(
     }
 }
 
-/// Take out of a sequence of extrema, the two ends among them unless it is cyclic, what differs from
-/// its neighbour by less than 5 % of the range: the smallest differences first.
-fn prominent(mut values: Vec<f64>, cyclic: bool) -> Vec<f64> {
-    values.retain(|value| value.is_finite());
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let least = RIPPLE * (high - low);
+/// An extremum of the curvature, or an end. A wave of the curvature by k over a leg moves the curve by about
+/// k |C′|², so that curvatures count by |C′|²: a sharp nose of short legs does not hide a calm body.
+#[derive(Clone, Copy)]
+struct Peak {
+    value: f64,
+    weight: f64,
+}
+
+/// Take out of a sequence of extrema, the two ends among them unless it is cyclic, two that differ by less than 5 %
+/// of the larger of their neighbours, those that differ least first. Where the curvature hardly changes at all, as on
+/// an arc, they are compared with its range.
+fn prominent(mut peaks: Vec<Peak>, cyclic: bool) -> Vec<Peak> {
+    peaks.retain(|peak| peak.value.is_finite());
+    let values = || peaks.iter().map(|peak| peak.value);
+    let low = values().fold(f64::INFINITY, f64::min);
+    let high = values().fold(f64::NEG_INFINITY, f64::max);
+    let is_even = high - low < RIPPLE * low.abs().max(high.abs());
     loop {
-        let count = values.len();
+        let count = peaks.len();
         if count <= 2 {
-            return values;
+            return peaks;
         }
         let pairs = if cyclic { count } else { count - 1 };
-        let difference = |pair: usize| (values[(pair + 1) % count] - values[pair]).abs();
-        let smallest = (0..pairs).min_by(|a, b| difference(*a).total_cmp(&difference(*b)));
-        let Some(pair) = smallest.filter(|pair| difference(*pair) < least) else {
-            return values;
+        let share = |pair: usize| {
+            let [a, b] = [peaks[pair], peaks[(pair + 1) % count]];
+            if is_even {
+                return (b.value - a.value).abs() / (high - low);
+            }
+            let before = (cyclic || pair > 0).then(|| (pair + count - 1) % count);
+            let behind = (cyclic || pair + 2 < count).then(|| (pair + 2) % count);
+            let beside = before.into_iter().chain(behind).map(|index| peaks[index]);
+            let size = beside.fold(0.0_f64, |most, it| most.max(it.value.abs() * it.weight));
+            (b.value - a.value).abs() * a.weight.max(b.weight) / size
+        };
+        let smallest = (0..pairs).min_by(|a, b| share(*a).total_cmp(&share(*b)));
+        let Some(pair) = smallest.filter(|pair| share(*pair) < RIPPLE) else {
+            return peaks;
         };
         let next = (pair + 1) % count;
         if cyclic || (pair > 0 && next < count - 1) {
             // A maximum and a minimum go together.
-            values.remove(pair.max(next));
-            values.remove(pair.min(next));
+            peaks.remove(pair.max(next));
+            peaks.remove(pair.min(next));
         } else {
             // The end stands for the extremum beside it.
-            values.remove(if pair == 0 { next } else { pair });
+            peaks.remove(if pair == 0 { next } else { pair });
         }
     }
 }
@@ -267,7 +298,7 @@ mod tests {
 
     #[test]
     fn ripple_is_told_from_what_stands_out() {
-        let cases: [(&[f64], bool, usize, usize); 5] = [
+        let cases: [(&[f64], bool, usize, usize); 7] = [
             // A small bump on a slope.
             (&[0.0, 5.0, 4.9, 10.0], false, 0, 0),
             // A hump with ripple on its top.
@@ -276,11 +307,21 @@ mod tests {
             (&[0.0, -0.1, 10.0], false, 0, 0),
             // Small waves about 0 on the way through.
             (&[-10.0, 0.2, -0.2, 10.0], false, 0, 1),
+            // An arc of an approximated circle.
+            (&[1.0, 1.001, 1.0], false, 1, 0),
+            // A wave beside a nose of short legs.
+            (&[1.0, 0.8, 1.0, 0.8, 100.0, 1.0], false, 4, 0),
             // An oval with ripple.
             (&[1.0, 2.0, 1.0, 1.99, 1.98, 2.0], true, 4, 0),
         ];
         for (values, cyclic, extrema, changes) in cases {
-            let left = prominent(values.to_vec(), cyclic);
+            let weight = |value: f64| if value < 100.0 { 1.0 } else { 1e-4 };
+            let peaks = values.iter().map(|value| Peak {
+                value: *value,
+                weight: weight(*value),
+            });
+            let left = prominent(peaks.collect(), cyclic);
+            let left: Vec<f64> = left.into_iter().map(|peak| peak.value).collect();
             let ends = if cyclic { 0 } else { 2 };
             assert_eq!(left.len() - ends, extrema, "{values:?}: {left:?}");
             assert_eq!(sign_changes(&left, cyclic), changes, "{values:?}: {left:?}");
