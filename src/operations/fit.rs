@@ -1,7 +1,5 @@
 //! A curve through the middle of points.
 
-use std::time::Duration;
-
 use glam::{DVec2, DVec3};
 
 use super::amount::Amount;
@@ -13,6 +11,7 @@ use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
 use super::targets::{SHARE_OF_SIZE, place_of};
+use super::time_limit::{TIME_IS_UP, TIME_LIMIT, limited};
 use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{FitRequest, fit_points};
@@ -22,9 +21,6 @@ use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::fitting::{Extrema, FitError, Fitted, PlaneFit, corners, fit_plane};
 use crate::geometry::parameters::{OutOfRange, Quantity};
 use crate::geometry::{End, MAX_DEGREE, Progress, counted, significant};
-
-/// The time that a search has, in seconds.
-const TIME: f64 = 10.0;
 
 /// A fit in space is far off if the nearest one with as many vertices is nearer by this factor.
 const FAR: f64 = 1.3;
@@ -61,7 +57,7 @@ const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
     help: "How many extrema of the curvature the curve has, proved",
-    kind: Kind::optional_count(usize::MAX, false, |_| "the fewest for the tolerance"),
+    kind: Kind::count_or(&["fewest"], |_| "the fewest for the tolerance"),
 };
 
 const INFLECTIONS: Parameter = Parameter {
@@ -95,30 +91,21 @@ const PERIODIC: Parameter = Parameter {
     kind: Kind::Switch { default: false },
 };
 
+/// Words of [`OUTLIERS`].
+const ISOLATED: &str = "isolated";
+const KEEP: &str = "keep";
+
 const OUTLIERS: Parameter = Parameter {
     name: "outliers",
     label: "Outliers",
-    help: "Whether isolated points far off count; by default they do with a tolerance alone",
-    kind: Kind::Choice {
-        options: &[
-            Choice::new("auto", "Automatic"),
-            Choice::new("isolated", "Left out"),
-            Choice::new("keep", "Kept"),
-        ],
-        default: 0,
-    },
-};
-
-const LEFT_OUT: Parameter = Parameter {
-    name: "leave-out",
-    label: "Left out",
-    help: "The points that do not count, counted from 0, instead of outliers",
+    help: "Points that do not count: isolated ones far off, or those with these numbers, from 0",
     kind: Kind::List {
         count: 1..=usize::MAX,
         whole: true,
         limits: ANY,
         quantity: Quantity::Number,
-        none: |_| "outliers",
+        words: &[ISOLATED, KEEP],
+        none: |_| "isolated; keep with a tolerance",
         in_space: false,
     },
 };
@@ -161,21 +148,13 @@ const END_CURVATURE: Parameter = Parameter {
     kind: Kind::optional_number(ANY, |_| "free"),
 };
 
-const TIME_LIMIT: Parameter = Parameter {
-    name: "time-limit",
-    label: "Time limit",
-    help: "The seconds after which the search ends with the best so far",
-    kind: Kind::optional_number(POSITIVE, |_| "10"),
-};
-
 /// What counts in the plane alone.
-const IN_PLANE: [&Parameter; 12] = [
+const IN_PLANE: [&Parameter; 11] = [
     &MOST,
     &INFLECTIONS,
     &ENDS,
     &PERIODIC,
     &OUTLIERS,
-    &LEFT_OUT,
     &SPLIT,
     &START_DIRECTION,
     &START_CURVATURE,
@@ -205,7 +184,6 @@ pub static OPERATION: Operation = Operation {
         PERIODIC,
         SPLIT,
         OUTLIERS,
-        LEFT_OUT,
         TIME_LIMIT,
     ],
     check: |_| Ok(()),
@@ -220,9 +198,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let points = input.points().iter().map(|point| point.truncate());
     let points: Vec<DVec2> = points.collect();
     let asked = asked(&points, values)?;
-    let seconds = given(values, &TIME_LIMIT).unwrap_or(TIME);
-    let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
-    let progress = progress.limited(limit);
+    let progress = limited(progress, values);
     let corners = match asked.periodic {
         true => Vec::new(),
         false => corners(&points),
@@ -363,26 +339,21 @@ fn asked(points: &[DVec2], values: &Values) -> Result<PlaneFit, OperationError> 
             })),
         }
     };
-    let left_out = values.list(&LEFT_OUT);
     let tolerance = given(values, &TOLERANCE);
-    let kept = [None, Some(false), Some(true)];
-    let outliers = match values
-        .choice(&OUTLIERS, &kept)
-        .unwrap_or(tolerance.is_some())
-    {
-        _ if !left_out.is_empty() => {
-            if let Some(beyond) = left_out.iter().find(|it| **it >= points.len() as f64) {
-                return Err(OutOfRange {
-                    label: LEFT_OUT.label,
-                    value: beyond.to_string().into(),
-                    needed: format!("below {}, the number of points,", points.len()).into(),
-                }
-                .into());
-            }
-            Some(left_out.iter().map(|number| *number as usize).collect())
+    let left_out = values.list(&OUTLIERS);
+    if let Some(beyond) = left_out.iter().find(|it| **it >= points.len() as f64) {
+        return Err(OutOfRange {
+            label: OUTLIERS.label,
+            value: beyond.to_string().into(),
+            needed: format!("below {}, the number of points,", points.len()).into(),
         }
-        true => Some(Vec::new()),
-        false => None,
+        .into());
+    }
+    let outliers = match values.word(&OUTLIERS) {
+        Some(KEEP) => Some(Vec::new()),
+        Some(_) => None,
+        None if left_out.is_empty() => tolerance.map(|_| Vec::new()),
+        None => Some(left_out.iter().map(|number| *number as usize).collect()),
     };
     let exact = values.choice(&ENDS, &[false, true]);
     Ok(PlaneFit {
@@ -539,7 +510,7 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
         ));
     }
     if found.stopped {
-        remarks.push("The time was up: this is the best found so far".to_owned());
+        remarks.push(TIME_IS_UP.to_owned());
     }
     remarks
 }

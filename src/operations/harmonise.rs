@@ -10,6 +10,7 @@ use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, Meaning, Parameter};
+use super::time_limit::{TIME_IS_UP, TIME_LIMIT, limited};
 use super::values::Values;
 use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
 use crate::geometry::features::Features;
@@ -78,6 +79,7 @@ const STRETCH: Parameter = Parameter {
         whole: false,
         limits: ANY,
         quantity: Quantity::Parameter,
+        words: &[],
         none: |_| "the whole curve",
         in_space: false,
     },
@@ -86,7 +88,7 @@ const STRETCH: Parameter = Parameter {
 const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
-    help: "Curvature extrema that remain; those with a prominence of 5 % of its range stand out",
+    help: "Curvature extrema that remain; those that differ by 5 % of their neighbours stand out",
     kind: Kind::optional_count(usize::MAX, false, STANDING_OUT),
 };
 
@@ -130,6 +132,7 @@ pub static OPERATION: Operation = Operation {
         TORSION_EXTREMA,
         MAX_DEVIATION,
         LOCKED,
+        TIME_LIMIT,
     ],
     check: |input| check_measurable(editable(input)?),
     unused: |_| &[],
@@ -161,7 +164,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         torsion_extrema: asked(&TORSION_EXTREMA),
         largest_deviation: most,
     };
-    let found = match harmonise(&curve.polygon, &harmony, progress) {
+    let progress = limited(progress, values);
+    let found = match harmonise(&curve.polygon, &harmony, &progress) {
         Ok(found) => found,
         Err(HarmonyError::Cancelled) => return Err(OperationError::Cancelled),
         Err(error) => return Err(error.into()),
@@ -182,6 +186,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     outcome.requirements = vec![(id, found.requirements.clone())];
     if !found.reached {
         outcome.remarks = vec![why_not(&found, &harmony)];
+        let late = progress.is_late().then(|| TIME_IS_UP.to_owned());
+        outcome.remarks.extend(late);
     }
     if found.refitted {
         outcome.remarks.push(

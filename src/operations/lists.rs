@@ -17,6 +17,7 @@ pub(super) const LOCKED: Parameter = Parameter {
         whole: true,
         limits: ANY,
         quantity: Quantity::Number,
+        words: &[],
         none: |_| "those of the curve",
         in_space: false,
     },

@@ -32,6 +32,7 @@ mod report_json;
 mod report_text;
 mod summary;
 mod targets;
+mod time_limit;
 mod value;
 mod values;
 mod which_end;

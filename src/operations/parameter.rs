@@ -50,6 +50,8 @@ pub enum Kind {
         limits: Limits,
         /// Quantity of each number.
         quantity: Quantity,
+        /// Words that can stand for a list; a value of one of them is its place as a [`Value::Choice`].
+        words: &'static [&'static str],
         /// Text for an empty list.
         none: Meaning,
         /// Whether only a curve in space has these values.
@@ -113,6 +115,7 @@ impl Kind {
             whole: false,
             limits: ANY,
             quantity: Quantity::Number,
+            words: &[],
             none,
             in_space: false,
         }
@@ -125,6 +128,7 @@ impl Kind {
             whole: false,
             limits,
             quantity: Quantity::Number,
+            words: &[],
             none,
             in_space: false,
         }
@@ -140,8 +144,22 @@ impl Kind {
                 _ => (Bound::Included(0.0), Bound::Included(most as f64)),
             },
             quantity: Quantity::Number,
+            words: &[],
             none,
             in_space,
+        }
+    }
+
+    /// One whole number, or one of some words.
+    pub(super) const fn count_or(words: &'static [&'static str], none: Meaning) -> Self {
+        Self::List {
+            count: 1..=1,
+            whole: true,
+            limits: ANY,
+            quantity: Quantity::Number,
+            words,
+            none,
+            in_space: false,
         }
     }
 
@@ -152,6 +170,7 @@ impl Kind {
             whole: false,
             limits: ANY,
             quantity: Quantity::Number,
+            words: &[],
             none,
             in_space,
         }
@@ -251,6 +270,10 @@ impl Parameter {
                 "off" => Some(Value::Switch(false)),
                 _ => None,
             },
+            Kind::List { words, .. } if words.contains(&text) => {
+                let place = words.iter().position(|word| *word == text);
+                place.map(Value::Choice)
+            }
             Kind::List { .. } => {
                 let parts = parts(text, ',').into_iter().filter(|_| !text.is_empty());
                 let numbers =
@@ -291,6 +314,9 @@ impl Parameter {
             (Kind::Choice { options, .. }, Value::Choice(index)) => options
                 .get(*index)
                 .map_or_else(String::new, |option| option.name.to_owned()),
+            (Kind::List { words, .. }, Value::Choice(index)) => {
+                words.get(*index).copied().unwrap_or_default().to_owned()
+            }
             _ => value.text(self.quantity()),
         }
     }
@@ -315,7 +341,16 @@ impl Parameter {
                 names.join(" or ")
             }
             Kind::Switch { .. } => "on or off".to_owned(),
-            Kind::List { count, whole, .. } => self.list_words(count, *whole),
+            Kind::List {
+                count,
+                whole,
+                words,
+                ..
+            } => {
+                let words = words.iter().map(|word| (*word).to_owned());
+                let all: Vec<String> = words.chain([self.list_words(count, *whole)]).collect();
+                all.join(", or ")
+            }
             Kind::Reference { .. } => {
                 "a reference, such as circle:radius=10 or formula:x=…;y=…".to_owned()
             }
@@ -370,6 +405,7 @@ impl Parameter {
                 let given = numbers.is_empty() || count.contains(&numbers.len());
                 given && numbers.iter().all(fits)
             }
+            (Kind::List { words, .. }, Value::Choice(index)) => *index < words.len(),
             _ => false,
         };
         if fits { Ok(()) } else { Err(self.wrong_kind()) }

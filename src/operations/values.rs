@@ -2,7 +2,7 @@
 
 use super::error::OperationError;
 use super::operands::Operands;
-use super::parameter::Parameter;
+use super::parameter::{Kind, Parameter};
 use super::value::Value;
 use crate::geometry::references::ReferenceCurve;
 
@@ -113,13 +113,22 @@ impl Values {
         })
     }
 
-    /// The numbers of a parameter that takes lists.
+    /// The word of a parameter that takes lists or words, if it has one.
+    pub(super) fn word(&self, parameter: &Parameter) -> Option<&'static str> {
+        match (&parameter.kind, self.get(parameter)) {
+            (Kind::List { words, .. }, Value::Choice(index)) => words.get(*index).copied(),
+            _ => None,
+        }
+    }
+
+    /// The numbers of a parameter that takes lists; none where it has a word.
     ///
     /// # Panics
     /// As [`Values::whole`].
     pub(super) fn list(&self, parameter: &Parameter) -> &[f64] {
         match self.get(parameter) {
             Value::List(numbers) => numbers,
+            Value::Choice(_) => &[],
             other => panic!("“{}” is {other:?}, no list", parameter.name),
         }
     }

@@ -58,7 +58,7 @@ pub enum Held {
 }
 
 /// Request for harmonising. Without a requested number of features no more may remain than
-/// stand out: extrema with a prominence of at least 5 % of the range of values, and the inflections
+/// stand out: extrema that differ by at least 5 % of the extrema beside them, and the inflections
 /// between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Harmony<'a> {
@@ -227,11 +227,16 @@ pub fn harmonise(
         polygon,
         iterations: 0,
     };
-    search.run_all([0.0, 0.5])?;
+    // When the time is up the best so far counts.
+    let unless_late = |result: Result<(), HarmonyError>| match result {
+        Err(HarmonyError::Cancelled) if progress.is_late() => Ok(()),
+        result => result,
+    };
+    unless_late(search.run_all([0.0, 0.5]))?;
     // Ends that turned round or stopped on the way keep their speeds, too.
     if search.spoils_ends && !search.best.harmonised.reached {
         search.problem = problem(true);
-        search.run_all([0.5, 0.5])?;
+        unless_late(search.run_all([0.5, 0.5]))?;
     }
     let iterations = search.iterations;
     let mut best = search.best.harmonised;
