@@ -31,6 +31,9 @@ const FRESH: [usize; 3] = [0, 2, 4];
 const ONE_SIGN: usize = 3;
 const ONE_START: usize = 5;
 
+/// Levels with fewer vertices that the number asked for begins at.
+const ASKED_STARTS: usize = 4;
+
 /// With more vertices than these, levels that bring nothing are left out.
 const MANY: usize = 80;
 
@@ -139,7 +142,7 @@ impl<'a> Task<'a> {
         // How many levels there were when weights were tried last.
         let mut weighed = None;
         loop {
-            let found = self.level(count, level, levels.last(), fewer, count == most);
+            let found = self.level(count, level, &levels, fewer, count == most);
             if self.progress.is_cancelled() {
                 break;
             }
@@ -253,7 +256,7 @@ impl<'a> Task<'a> {
         &self,
         count: usize,
         level: usize,
-        best: Option<&Level>,
+        known: &[Level],
         fewer: &[Level],
         is_last: bool,
     ) -> Option<Level> {
@@ -262,18 +265,20 @@ impl<'a> Task<'a> {
         let better = |found: &mut Option<Level>, it: Level| {
             *found = Some(it.or(found.take()));
         };
-        if let Some(best) = best {
-            let known = self.problem(best.splines.count);
-            if let Some(start) = problem.resampled(&known, &best.start) {
+        let is_asked = self.count == Some(count) && count <= MANY;
+        // The number that is asked for must be as near as those with fewer vertices.
+        let tried = if is_asked { ASKED_STARTS } else { 1 };
+        for best in known.iter().rev().take(tried) {
+            let before = self.problem(best.splines.count);
+            if let Some(start) = problem.resampled(&before, &best.start) {
                 let first = self.attempt(&problem, start, WARM_STEPS);
-                if !first.holds || first.rms > best.rms {
+                if is_asked || !first.holds || first.rms > best.rms {
                     let start = first.start.clone();
                     better(&mut found, self.attempt(&problem, start, SECOND_STEPS));
                 }
                 better(&mut found, first);
             }
         }
-        let is_asked = self.count == Some(count) && count <= MANY;
         if FRESH.contains(&level) || is_asked || !found.as_ref().is_some_and(|it| it.holds) {
             let starts = if level < ONE_START || is_asked {
                 &STARTS[..]
