@@ -63,6 +63,7 @@ mod status_bar;
 mod steady_rows;
 mod theme;
 mod tool_rail;
+mod trade_off;
 mod transform_marks;
 mod transform_panel;
 mod unit_menu;

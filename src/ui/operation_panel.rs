@@ -57,7 +57,8 @@ impl OperationPanel {
                 actions.extend(shown.flatten().map(PanelAction::Change));
                 ui.add_space(STEP);
             }
-            self.report.show(ui, in_progress);
+            let clicked = self.report.show(ui, in_progress);
+            actions.extend(clicked.map(|values| PanelAction::Change(FieldEvent::Set(values))));
         });
         // A click on a button also leaves a field: its text counts first.
         actions.extend(foot);

@@ -3,16 +3,18 @@
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{Label, TextStyle, Ui};
 
+use super::atlas::Values;
 use super::feature_comparison::{Comparison, OUTDATED, monotone_ui};
 use super::level_comparison::level_comparisons_ui;
 use super::message::sentence;
 use super::steady_rows::SteadyRows;
 use super::theme::Tokens;
+use super::trade_off::TradeOff;
 use super::{figures, widgets};
 use crate::editor::OperationInProgress;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::rounded_up;
-use crate::operations::{Deviation, Figure, Report, Value};
+use crate::operations::{Deviation, Figure, Parameter, Report, Value};
 
 /// The report of one operation; its rows keep their places.
 #[derive(Default)]
@@ -20,11 +22,12 @@ pub struct ReportView {
     operation: &'static str,
     figures: SteadyRows,
     features: Comparison,
+    trade_off: TradeOff,
 }
 
 impl ReportView {
-    /// Show the result, faintly while other values run.
-    pub fn show(&mut self, ui: &mut Ui, in_progress: &OperationInProgress) {
+    /// Show the result, faintly while other values run; returns the values that a click asks for.
+    pub fn show(&mut self, ui: &mut Ui, in_progress: &OperationInProgress) -> Option<Values> {
         let operation = in_progress.operation().name;
         if self.operation != operation {
             *self = Self {
@@ -32,17 +35,23 @@ impl ReportView {
                 ..Self::default()
             };
         }
-        ui.scope(|ui| {
+        let shown = ui.scope(|ui| {
             if in_progress.is_pending() {
                 ui.multiply_opacity(OUTDATED);
             }
-            if let Some(Ok(run)) = in_progress.run() {
-                self.report_ui(ui, in_progress, &run.report);
-            }
+            let run = in_progress.run()?.as_ref().ok()?;
+            self.report_ui(ui, in_progress, &run.report)
         });
+        shown.inner
     }
 
-    fn report_ui(&mut self, ui: &mut Ui, in_progress: &OperationInProgress, report: &Report) {
+    fn report_ui(
+        &mut self,
+        ui: &mut Ui,
+        in_progress: &OperationInProgress,
+        report: &Report,
+    ) -> Option<Values> {
+        let clicked = self.trade_off_ui(ui, in_progress, report);
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             for (name, figure) in self.figures.in_place(figures_of(report)) {
@@ -57,6 +66,34 @@ impl ReportView {
         for remark in &report.remarks {
             widgets::note(ui, remark);
         }
+        clicked
+    }
+
+    /// What each number of extrema reaches, if the operation has tried several.
+    fn trade_off_ui(
+        &mut self,
+        ui: &mut Ui,
+        in_progress: &OperationInProgress,
+        report: &Report,
+    ) -> Option<Values> {
+        let tables = report
+            .figures
+            .iter()
+            .filter_map(|figure| match &figure.value {
+                Value::Table { rows, .. } => Some(rows),
+                _ => None,
+            });
+        let rows = tables.last()?;
+        if !in_progress.is_pending() {
+            let parameters = in_progress.operation().parameters.iter();
+            let value = |it: &Parameter| (it.name, in_progress.values().get(it).clone());
+            self.trade_off.take(rows, parameters.map(value).collect());
+        }
+        let present = match report.figure("extrema") {
+            Some(Value::Whole(extrema)) => Some(extrema),
+            _ => None,
+        };
+        self.trade_off.show(ui, present)
     }
 }
 
@@ -136,6 +173,8 @@ fn figures_of(report: &Report) -> Vec<(&'static str, String)> {
         .residual
         .map(|residual| ("Residual", length(residual)));
     let figures = report.figures.iter();
+    // A table has a plot of its own.
+    let figures = figures.filter(|figure| !matches!(figure.value, Value::Table { .. }));
     let figures = figures.map(|figure| (figure.label, figure_text(figure)));
     residual.into_iter().chain(figures).collect()
 }

@@ -1,6 +1,7 @@
 //! Fits of planar points.
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 use glam::{DVec2, DVec3};
 
@@ -38,6 +39,10 @@ const MOST_EXTREMA: usize = 80;
 /// out: half as many as were tried. If that was too far, they are bisected.
 const FAR: f64 = 6.0;
 const SKIPS_FROM: usize = 4;
+
+/// So many further numbers are tried for so long beside the fewest, so that there is something to choose from.
+const MORE: usize = 2;
+const MORE_TIME: Duration = Duration::from_millis(500);
 
 /// Levels of fewer extrema that begin those of more.
 const RELEASED: usize = 3;
@@ -421,9 +426,30 @@ impl Fit<'_> {
             };
             self.progress.set_done((extrema as f64 / 10.0).min(0.9));
         }
+        self.try_more(step, &mut search);
         let mut trade_off = search.trade_off;
         trade_off.sort_by_key(|it| it.extrema);
         (search.best, trade_off)
+    }
+
+    /// Find what a few more extrema than those of the best would reach, for the choice alone.
+    fn try_more(&self, step: usize, search: &mut Search) {
+        let Some(best) = &search.best else { return };
+        let (first, tolerance) = (best.start.slopes.cuts.len(), self.prepared.tolerance);
+        let progress = self.progress.limited(MORE_TIME);
+        let mut fewer = vec![best.clone()];
+        for extrema in (1..=MORE).map(|more| first + more * step) {
+            if search.known.contains_key(&extrema) || self.progress.is_late() {
+                continue;
+            }
+            let task = Task {
+                progress: &progress,
+                ..self.task(extrema, Some(tolerance))
+            };
+            let levels = task.levels(&fewer);
+            search.trade_off.extend(self.trade_off(extrema, &levels));
+            fewer.extend(levels.last().cloned());
+        }
     }
 
     /// Try numbers of extrema between one that misses the tolerance and one that keeps it.
