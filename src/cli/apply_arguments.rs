@@ -41,7 +41,7 @@ pub(super) enum ApplyArguments {
     /// To list the operations.
     List,
     /// To apply one.
-    Run(Given),
+    Run(Box<Given>),
 }
 
 /// An operation with its input.
@@ -112,7 +112,7 @@ impl FromArgMatches for ApplyArguments {
                     twice.map(|name| format!("“{name}” is given twice: leave one of them out"));
                 match twice.or_else(|| given.misplaced()) {
                     Some(message) => return refused(message),
-                    None => Self::Run(given),
+                    None => Self::Run(Box::new(given)),
                 }
             }
             None => Self::List,

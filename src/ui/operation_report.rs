@@ -76,14 +76,14 @@ impl ReportView {
         in_progress: &OperationInProgress,
         report: &Report,
     ) -> Option<Values> {
-        let tables = report
+        let mut tables = report
             .figures
             .iter()
             .filter_map(|figure| match &figure.value {
                 Value::Table { rows, .. } => Some(rows),
                 _ => None,
             });
-        let rows = tables.last()?;
+        let rows = tables.next()?;
         if !in_progress.is_pending() {
             let parameters = in_progress.operation().parameters.iter();
             let value = |it: &Parameter| (it.name, in_progress.values().get(it).clone());

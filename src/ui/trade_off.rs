@@ -68,17 +68,16 @@ impl TradeOff {
         let room = vec2(ui.available_width(), height + below);
         let (rect, _) = ui.allocate_exact_size(room, Sense::hover());
         let width = (rect.width() / self.rows.len() as f32).clamp(WIDTHS[0], WIDTHS[1]);
-        let rows = self.rows.iter().enumerate();
-        let clicked = rows.filter_map(|(index, row)| {
+        let mut clicked = None;
+        for (index, row) in self.rows.iter().enumerate() {
             let left = rect.left() + index as f32 * width;
-            let cell = Rect::from_min_max(
-                pos2(left, rect.top()),
-                pos2((left + width).min(rect.right()), rect.bottom()),
-            );
-            self.bar_ui(ui, cell, row, present == Some(row.extrema))
-                .then_some(row.extrema)
-        });
-        let extrema = clicked.last()?;
+            let right = (left + width).min(rect.right());
+            let cell = Rect::from_min_max(pos2(left, rect.top()), pos2(right, rect.bottom()));
+            if self.bar_ui(ui, cell, row, present == Some(row.extrema)) {
+                clicked = Some(row.extrema);
+            }
+        }
+        let extrema = clicked?;
         Some(vec![(EXTREMA, Value::List(vec![extrema as f64]))])
     }
 
