@@ -21,6 +21,9 @@ use crate::operations::{ALL, Inputs, Operands, Operation, OperationError, Outcom
 /// The exit code of arguments that cannot be used.
 const MISUSED: u8 = 2;
 
+/// The share of the work that the operation has; the rest is the proof of features.
+const RUN: f64 = 0.8;
+
 /// How often a long operation is asked how far it has come.
 const PAUSE: Duration = Duration::from_millis(100);
 
@@ -296,8 +299,8 @@ impl Application {
     ) -> Result<(Outcome, Report), OperationError> {
         let operation = self.operation;
         let values = operation.values(input, self.values.iter().cloned())?;
-        let outcome = operation.run(input, &values, progress)?;
-        let report = Report::of(operation, input, &outcome, progress);
+        let outcome = operation.run(input, &values, &progress.part(0.0, RUN))?;
+        let report = Report::of(operation, input, &outcome, &progress.part(RUN, 1.0));
         Ok((outcome, report.ok_or(OperationError::Cancelled)?))
     }
 }

@@ -4,6 +4,8 @@
 use std::array::from_fn;
 use std::ops::{Add, Mul, Sub};
 
+use super::coefficient::Coefficient;
+
 /// Hold the first `LENGTH` coefficients of the power series of a function about a parameter u:
 /// f(u + h) = Σ cₖ hᵏ, where cₖ is the k-th derivative at u over k!.
 ///
@@ -14,10 +16,10 @@ pub(super) struct TaylorSeries<const LENGTH: usize>(pub [f64; LENGTH]);
 
 /// Sum up coefficient k of the product of two series: Σ aⱼ bₖ₋ⱼ, j = 0 … k.
 #[inline(always)]
-pub(super) fn product_coefficient(a: &[f64], b: &[f64], k: usize) -> f64 {
-    let mut sum = 0.0;
+pub(super) fn product_coefficient<T: Coefficient>(a: &[T], b: &[T], k: usize) -> T {
+    let mut sum = T::of(0.0);
     for j in 0..=k {
-        sum += a[j] * b[k - j];
+        sum = sum + a[j] * b[k - j];
     }
     sum
 }
@@ -25,11 +27,11 @@ pub(super) fn product_coefficient(a: &[f64], b: &[f64], k: usize) -> f64 {
 /// Sum up what coefficient k ≥ 1 of the power g = fᵃ follows from. With g′ f = a f′ g it is
 /// gₖ = Σ (a j − (k − j)) fⱼ gₖ₋ⱼ / (k f₀), j = 1 … k; this is the sum, without the division.
 #[inline(always)]
-pub(super) fn power_sum(exponent: f64, f: &[f64], g: &[f64], k: usize) -> f64 {
-    let mut sum = 0.0;
+pub(super) fn power_sum<T: Coefficient>(exponent: f64, f: &[T], g: &[T], k: usize) -> T {
+    let mut sum = T::of(0.0);
     for j in 1..=k {
         let factor = exponent * j as f64 - (k - j) as f64;
-        sum += factor * f[j] * g[k - j];
+        sum = sum + T::of(factor) * f[j] * g[k - j];
     }
     sum
 }

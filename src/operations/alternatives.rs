@@ -1,5 +1,7 @@
 //! What else reaches a tolerance, where an approximation does not, or by very many vertices.
 
+use std::cell::Cell;
+
 use crate::geometry::approximation::{
     Approximated, ApproximationRequest, Goal, MOST_FOR_SHAPE, approximate_to_tolerance,
 };
@@ -30,8 +32,13 @@ pub(super) fn remark_on_alternatives(
         most_segments: MANY,
         ..*goal
     };
+    let degrees = asked.degree + 1..=(asked.degree + DEGREES).min(MAX_DEGREE);
+    let tries = (asked.levels + degrees.clone().count()) as f64;
+    let tried = Cell::new(0.0);
     let reaching = |asked: ApproximationRequest, what: String| {
-        let found = approximate_to_tolerance(curve, interval, &goal, &asked, progress).ok()?;
+        let from = tried.replace(tried.get() + 1.0) / tries;
+        let progress = progress.part(from, tried.get() / tries);
+        let found = approximate_to_tolerance(curve, interval, &goal, &asked, &progress).ok()?;
         let count = found.polygon.vertices().len();
         let reaches = format!("{what} reaches the tolerance with {count} vertices");
         found.meets(goal.tolerance).then_some(reaches)
@@ -50,7 +57,6 @@ pub(super) fn remark_on_alternatives(
             format!("levels {levels}"),
         )
     });
-    let degrees = asked.degree + 1..=(asked.degree + DEGREES).min(MAX_DEGREE);
     let mut higher = degrees.filter_map(|degree| {
         reaching(
             ApproximationRequest { degree, ..*asked },
@@ -71,6 +77,8 @@ pub(super) fn remark_on_alternatives(
         ),
     };
     match (is_reached, enough.is_empty()) {
+        // Not all was tried.
+        (_, true) if progress.is_cancelled() => (!is_reached).then_some(problem),
         (_, false) => Some(format!("{problem}: {}", enough.join(", "))),
         (true, true) => None,
         (false, true) => Some(format!(

@@ -11,11 +11,12 @@ use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
+use super::time_limit::{TIME_LIMIT, limited, seconds};
 use super::values::Values;
-use crate::document::{Curve, Edit, ParameterSpan};
+use crate::document::{Curve, CurveId, Edit, ParameterSpan};
 use crate::geometry::approximation::{
-    Approximated, ApproximationRequest, Goal, LevelComparison, MOST_SEGMENTS, Placing, Spacing,
-    Watched, approximate_between, approximate_by_steps, approximate_to_tolerance,
+    Approximated, ApproximationError, ApproximationRequest, Goal, LevelComparison, MOST_SEGMENTS,
+    Placing, Spacing, Watched, approximate_between, approximate_by_steps, approximate_to_tolerance,
 };
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::references::ReferenceCurve;
@@ -31,6 +32,9 @@ const COUNT_OFFERED: usize = 20;
 
 /// If none is given the number is doubled while the corrections of quasi-interpolation grow, so many times at most.
 const DOUBLINGS: usize = 5;
+
+/// The share that the search has of all work; what else would do is told afterwards.
+const SEARCH: f64 = 0.8;
 
 const REFERENCE: Parameter = Parameter {
     name: "reference",
@@ -146,6 +150,7 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::OneOrNone,
     parameters: &[
         REFERENCE, METHOD, DEGREE, FROM, TO, STEP, COUNT, TOLERANCE, SPACING, LEVELS, FIT_ENDS,
+        TIME_LIMIT,
     ],
     check: |input| match input.curves() {
         [] => Ok(()),
@@ -224,17 +229,30 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let source = Source::of(input, values)?;
     let tolerance = given(values, &TOLERANCE);
     let placing = values.choice(&METHOD, &PLACINGS);
+    let search = limited(progress, values);
     let curve = Watched::new(source.differentiable(), progress);
-    let found = approximated(&source, &curve, values, placing, tolerance, progress);
+    let found = approximated(&source, &curve, values, placing, tolerance, &search);
     if progress.is_cancelled() {
         return Err(OperationError::Cancelled);
     }
-    let (found, alternatives) = found?;
+    let id = match source {
+        Source::Reference(_) => input.document().next_id(),
+        Source::Curve(_) => input.curve()?.0,
+    };
+    let (found, alternatives) = match found {
+        Err(OperationError::Approximation(ApproximationError::Cancelled)) => {
+            return Ok(nothing_in_time(id, values));
+        }
+        found => found?,
+    };
     let nearer = match placing {
-        Placing::OnCurve => by_quasi_interpolation(&curve, values, &found),
+        Placing::OnCurve => by_quasi_interpolation(&Watched::new(&curve, &search), values, &found),
         Placing::Quasi => None,
     };
-    let deviation = Deviation::Measured(found.deviation.largest);
+    let deviation = match found.deviation.bounded {
+        true => Deviation::AtMost(found.deviation.largest),
+        false => Deviation::Measured(found.deviation.largest),
+    };
     let annotations = annotations(&source, &found);
     let outcome = match source {
         Source::Reference(reference) => {
@@ -256,15 +274,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         }
     };
     let mut remarks = outcome.remarks.clone();
+    remarks.extend(remark_on_time(values, &found, tolerance));
     remarks.extend(alternatives);
     remarks.extend(remark_on_levels(values, &found));
     remarks.extend(remark_on_corrections(&found));
     remarks.extend(remark_on_cusps(&source, found.interval));
     remarks.extend(remark_on_quasi(&found, nearer));
-    let id = match source {
-        Source::Reference(_) => input.document().next_id(),
-        Source::Curve(_) => input.curve()?.0,
-    };
     let limit = tolerance.map(|most| Requirement::Limit {
         found: found.distance(),
         most,
@@ -279,6 +294,31 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         remarks,
         ..outcome
     })
+}
+
+/// The outcome of a search whose time was up before it found anything.
+fn nothing_in_time(id: CurveId, values: &Values) -> Outcome {
+    let seconds = seconds(values);
+    Outcome {
+        requirements: vec![(id, vec![Requirement::Failed { left: None }])],
+        remarks: vec![format!(
+            "The time of {seconds} s was up before a curve was found: allow more, or choose a part of the reference"
+        )],
+        ..Outcome::unchanged(Deviation::Unmeasured)
+    }
+}
+
+/// Say that the time was up before the search came to its end.
+fn remark_on_time(values: &Values, found: &Approximated, tolerance: Option<f64>) -> Option<String> {
+    let seconds = seconds(values);
+    let is_reached = tolerance.is_some_and(|tolerance| found.meets(tolerance));
+    let what = match is_reached {
+        true => "fewer vertices may do",
+        false => "this is the best found so far",
+    };
+    found
+        .stopped
+        .then(|| format!("The time of {seconds} s was up: {what}"))
 }
 
 /// The parameters of a curve with those of its approximation: at the approximation's knots the nearest points, as far
@@ -342,8 +382,12 @@ fn approximated(
                 spacing,
                 most_segments: MOST_SEGMENTS,
             };
-            let found = approximate_to_tolerance(curve, interval, &goal, &asked, progress)?;
-            let remark = remark_on_alternatives(curve, interval, &goal, &asked, &found, progress);
+            let [first, rest] = [progress.part(0.0, SEARCH), progress.part(SEARCH, 1.0)];
+            let found = approximate_to_tolerance(curve, interval, &goal, &asked, &first)?;
+            let remark = match found.stopped {
+                true => None,
+                false => remark_on_alternatives(curve, interval, &goal, &asked, &found, &rest),
+            };
             (found, remark)
         }
         _ => {

@@ -57,7 +57,7 @@ pub enum Deviation {
     Exact,
     /// Its points move by no more than this length: a proved bound.
     AtMost(f64),
-    /// Its largest distance from what it stands for is this: measured, to 1e-3 of itself.
+    /// Its largest distance from what it stands for is this, as samples show, to 1e-3 of itself.
     Measured(f64),
     /// The largest distance of the points that it was drawn through is this, outliers aside.
     FromPoints(f64),

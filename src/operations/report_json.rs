@@ -5,13 +5,15 @@ use std::collections::BTreeMap;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::json;
 
+use super::outcome::Deviation;
 use super::report::Report;
 use super::value::Value;
 use crate::geometry::approximation::LevelComparison;
 
 impl Serialize for Report {
     /// Write the keys `operation`, `reached`, `residual`, `deviation` (0 where the curve is the
-    /// same, null where it is another and the distance is not measured), `largest_move`,
+    /// same, null where it is another and the distance is not measured), `deviation_is` (`exact`, `bounded`, which is
+    /// proved, `sampled`, or of points `measured`; null with the deviation), `largest_move`,
     /// `features_before`, `features_after` (counts and `harmony` of each curve; null where they are not
     /// proved), `remarks`, and the
     /// operation's own figures under their names, angles in degrees; of approximations `equivalence`, a
@@ -22,6 +24,7 @@ impl Serialize for Report {
         map.serialize_entry("reached", &self.reached)?;
         map.serialize_entry("residual", &self.residual)?;
         map.serialize_entry("deviation", &self.moved())?;
+        map.serialize_entry("deviation_is", &kind(self.deviation))?;
         map.serialize_entry("largest_move", &self.largest_move)?;
         let features = self.features.as_ref();
         let before = features.map(|features| &features.before);
@@ -57,6 +60,17 @@ impl Serialize for Report {
         }
         map.serialize_entry("remarks", &self.remarks)?;
         map.end()
+    }
+}
+
+/// Name what a deviation is: what holds everywhere, or only where it was looked at.
+fn kind(deviation: Deviation) -> Option<&'static str> {
+    match deviation {
+        Deviation::Exact => Some("exact"),
+        Deviation::AtMost(_) => Some("bounded"),
+        Deviation::Measured(_) => Some("sampled"),
+        Deviation::FromPoints(_) => Some("measured"),
+        Deviation::Unmeasured => None,
     }
 }
 

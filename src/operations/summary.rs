@@ -24,7 +24,8 @@ impl Report {
                     parts.push(format!("off the curve by at most {}", rounded_up(bound)));
                 }
                 Deviation::Measured(length) => {
-                    parts.push(format!("off the true curve by {}", significant(length, 3)));
+                    let length = significant(length, 3);
+                    parts.push(format!("off the true curve by {length} (sampled)"));
                 }
                 Deviation::FromPoints(length) => {
                     parts.push(format!("off the points by {}", significant(length, 3)));

@@ -23,6 +23,10 @@ pub(super) const TIME_IS_UP: &str = "The time was up: this is the best found so 
 
 /// Give a search the time that the values allow.
 pub(super) fn limited(progress: &Progress, values: &Values) -> Progress {
-    let seconds = given(values, &TIME_LIMIT).unwrap_or(TIME);
-    progress.limited(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX))
+    progress.limited(Duration::try_from_secs_f64(seconds(values)).unwrap_or(Duration::MAX))
+}
+
+/// Tell the seconds that a search has.
+pub(super) fn seconds(values: &Values) -> f64 {
+    given(values, &TIME_LIMIT).unwrap_or(TIME)
 }

@@ -141,7 +141,8 @@ fn deviation(report: &Report) -> Option<String> {
         Deviation::Exact => "none, exact".to_owned(),
         Deviation::AtMost(0.0) => "none".to_owned(),
         Deviation::AtMost(bound) => format!("at most {}", rounded_up(bound)),
-        Deviation::Measured(measured) | Deviation::FromPoints(measured) => length(measured),
+        Deviation::Measured(sampled) => format!("{}, sampled", length(sampled)),
+        Deviation::FromPoints(measured) => length(measured),
         Deviation::Unmeasured => "another curve, not measured".to_owned(),
     })
 }

@@ -4,8 +4,10 @@
 mod common;
 
 mod airfoils;
+mod bounds;
 mod fits;
 mod fits_with_extrema;
 mod periodic;
 mod places;
 mod shapes;
+mod symmetric;

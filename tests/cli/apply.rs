@@ -7,11 +7,12 @@ use serde_json::{Value, json};
 use super::folder::*;
 
 /// The keys that every report has.
-const KEYS: [&str; 8] = [
+const KEYS: [&str; 9] = [
     "operation",
     "reached",
     "residual",
     "deviation",
+    "deviation_is",
     "largest_move",
     "features_before",
     "features_after",

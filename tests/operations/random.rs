@@ -10,10 +10,10 @@ use crate::common::Random;
 use crate::runner::examples;
 
 /// Rounds over all examples and operations.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 3;
 
 /// The seconds that a search has.
-const TIME: f64 = 0.2;
+const TIME: f64 = 0.05;
 
 /// The largest whole number that is drawn: more only takes longer.
 const MOST: f64 = 60.0;
@@ -137,12 +137,12 @@ fn assert_harmless(seed: u64) {
                 // No figure of its own has the name of one that all have.
                 let keys = json.as_object().map(serde_json::Map::len);
                 let own = report.figures.len() + usize::from(report.equivalence.is_some());
-                assert_eq!(keys, Some(8 + own), "{place}");
+                assert_eq!(keys, Some(9 + own), "{place}");
                 let largest = report.largest_move.map_or(0.0, |largest| largest.distance);
                 assert!(largest.is_finite(), "{place}");
                 reached += usize::from(outcome.reached);
             }
         }
     }
-    assert!(reached > 400 && refused > 10, "{reached} {refused}");
+    assert!(reached > 200 && refused > 5, "{reached} {refused}");
 }

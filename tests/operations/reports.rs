@@ -124,6 +124,7 @@ fn all_reports_have_one_schema() {
         "reached": true,
         "residual": null,
         "deviation": found["deviation"],
+        "deviation_is": "bounded",
         "largest_move": {
             "distance": report.largest_move.map(|largest| largest.distance),
             "vertex": report.largest_move.map(|largest| largest.vertex),

@@ -9,6 +9,7 @@ use super::error::ApproximationError;
 use super::knots::UniformKnots;
 use super::placing::{Corrections, Placing, placed};
 use super::spacing::{Respaced, Spacing};
+use super::watched::Watched;
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::end::End;
 use crate::geometry::end_correction::EndTarget;
@@ -25,6 +26,13 @@ pub const MOST_FOR_SHAPE: usize = 2048;
 
 /// The least number of segments is found exactly below this number, and above it to one part in so many.
 const FINE: usize = 128;
+
+/// Where a deviation is too large, the next number of segments is the one at which the order of convergence lets
+/// expect the tolerance, but between these multiples: fewer would take many steps, and the order may be misleading.
+const GROWTH: std::ops::RangeInclusive<f64> = 1.5..=6.0;
+
+/// The share of the time that the search has; what is left is for the figures of its result.
+const SEARCHING: f64 = 0.75;
 
 /// The spacings that are tried for a tolerance, the simplest first.
 const SPACINGS: [Spacing; 3] = [Spacing::Parameter, Spacing::ArcLength, Spacing::Curvature];
@@ -89,6 +97,8 @@ pub struct Approximated {
     pub spacing: Spacing,
     /// The corrections of quasi-interpolation, from degree 4 on.
     pub corrections: Option<Corrections>,
+    /// Whether the time was up before the search for it came to its end.
+    pub stopped: bool,
 }
 
 impl Approximated {
@@ -129,7 +139,7 @@ pub fn approximate_by_steps(
     request: &ApproximationRequest,
 ) -> Result<Approximated, ApproximationError> {
     let knots = UniformKnots::of_vertices(request.degree, first, step, count)?;
-    approximated(curve, &knots, None, request, |_| Some(Places::Refined))
+    approximated(curve, &knots, None, request, Precision::Full)
 }
 
 /// Approximate the part of a curve between two of its parameters by so many vertices.
@@ -145,16 +155,14 @@ pub fn approximate_between(
 ) -> Result<Approximated, ApproximationError> {
     let respaced = Respaced::by(curve, interval, spacing)?;
     let knots = request.knots(interval, respaced.as_ref(), count)?;
-    approximated(curve, &knots, respaced.as_ref(), request, |_| {
-        Some(Places::Refined)
-    })
+    approximated(curve, &knots, respaced.as_ref(), request, Precision::Full)
 }
 
 /// Approximate the part of a curve between two of its parameters so that the deviation is at most a
 /// tolerance and all levels compared have the curve's features, by as few vertices as it takes; where that is more
 /// than a hundred, by up to 1 % more. Where nothing
-/// reaches both, what comes back is the nearest that was found, or of those that are near enough the one with
-/// the most levels that are equal, and of these the one with the fewest vertices.
+/// reaches both, or the time of `progress` is up before, what comes back is the nearest that was found, or of those
+/// that are near enough the one with the most levels that are equal, and of these the one with the fewest vertices.
 ///
 /// # Errors
 /// [`ApproximationError`] if no number of vertices makes an approximation.
@@ -171,19 +179,37 @@ pub fn approximate_to_tolerance(
         .spacing
         .map_or(SPACINGS.to_vec(), |spacing| vec![spacing]);
     let spacings = spacings.into_iter();
+    let hurried = progress.hurried(SEARCHING);
+    let watched = Watched::new(curve, &hurried);
     let search = Search {
-        curve,
+        curve: &watched,
         interval,
         goal,
         request,
         spacings: spacings
-            .map(|it| Respaced::by(curve, interval, it))
+            .map(|it| Respaced::by(&watched, interval, it))
             .collect(),
     };
-    let found = search.run(progress)?;
+    let found = search.run(&hurried)?;
     // What is too far away was not compared yet, nor are places of features refined.
     let count = found.polygon.vertices().len();
-    approximate_between(curve, interval, count, found.spacing, request)
+    let watched = Watched::new(curve, progress);
+    let told = approximate_between(&watched, interval, count, found.spacing, request);
+    let mut told = match told {
+        Ok(told) if !progress.is_cancelled() => told,
+        _ => return Ok(found),
+    };
+    told.stopped = found.stopped;
+    let (known, tight) = (&found.deviation, &mut told.deviation);
+    if known.bounded && tight.bounded {
+        // Of two bounds of the same distance the smaller one counts.
+        tight.largest = tight.largest.min(known.largest);
+    }
+    if tight.found <= goal.tolerance && goal.tolerance < tight.largest {
+        // So small a distance drowns in the rounding of bounds.
+        (tight.largest, tight.bounded) = (tight.found, false);
+    }
+    Ok(told)
 }
 
 /// The search for the least number of vertices.
@@ -202,49 +228,69 @@ impl Search<'_> {
             true => self.request.degree + 1,
             false => 1,
         };
-        let most_tried = self.goal.most_segments.max(least);
-        let (mut too_few, mut segments, mut most) = (least - 1, least, most_tried);
+        let mut most = self.goal.most_segments.max(least);
+        let (mut too_few, mut segments) = (Tried::none(least - 1), least);
         let mut best: Option<Result<Approximated, ApproximationError>> = None;
         let mut found = None;
         while found.is_none() && !progress.is_cancelled() {
             progress.set_done(0.5 * segments as f64 / most as f64);
             let tried = self.best_of(segments);
-            let distance = tried.as_ref().map(Approximated::distance);
-            let is_near = distance.is_ok_and(|distance| distance <= self.goal.tolerance);
+            let is_near = tried
+                .as_ref()
+                .is_ok_and(|tried| tried.distance() <= self.goal.tolerance);
             if is_near && tried.as_ref().is_ok_and(Approximated::is_equivalent) {
                 found = tried.ok();
                 continue;
             }
-            best = Some(self.better(best, tried));
+            let before = too_few;
+            too_few = Tried::of(segments, &tried);
+            // What the end of the time spoilt says nothing.
+            if !progress.is_cancelled() {
+                best = Some(self.better(best, tried));
+            }
             if is_near {
                 most = most.min(MOST_FOR_SHAPE.max(segments));
             }
             if segments == most {
                 break;
             }
-            too_few = segments;
             // The shape takes many more.
-            let more = if is_near {
-                segments
-            } else {
-                segments.div_ceil(2)
+            let growth = match is_near {
+                true => 2.0,
+                false => before.growth(&too_few, self.goal.tolerance),
             };
-            segments = (segments + more).min(most);
+            segments = ((segments as f64 * growth).ceil() as usize).min(most);
         }
         let Some(mut found) = found else {
-            return best.unwrap_or_else(|| self.best_of(least));
+            let stopped = progress.is_cancelled();
+            return match best {
+                Some(Ok(best)) => Ok(Approximated { stopped, ..best }),
+                Some(Err(error)) if !stopped => Err(error),
+                _ => Err(ApproximationError::Cancelled),
+            };
         };
-        while segments - too_few > 1 + segments / FINE && !progress.is_cancelled() {
-            let middle = too_few + (segments - too_few) / 2;
-            match self.best_of(middle) {
-                Ok(tried) if tried.meets(self.goal.tolerance) => {
-                    (found, segments) = (tried, middle);
-                }
-                _ => too_few = middle,
+        let mut enough = Tried::of(segments, &Ok(found.clone()));
+        let mut halve = false;
+        while enough.segments - too_few.segments > 1 + enough.segments / FINE
+            && !progress.is_cancelled()
+        {
+            let [low, high] = [too_few.segments, enough.segments];
+            let middle = match halve {
+                true => low + (high - low) / 2,
+                false => too_few.between(&enough, self.goal.tolerance),
+            };
+            let tried = self.best_of(middle);
+            let known = Tried::of(middle, &tried);
+            match tried {
+                Ok(tried) if tried.meets(self.goal.tolerance) => (found, enough) = (tried, known),
+                _ => too_few = known,
             }
-            progress.set_done(1.0 - 0.5 / (segments - too_few) as f64);
+            // Every other step is half of what is left at least.
+            halve = !halve && 2 * (enough.segments - too_few.segments) > high - low;
+            progress.set_done(1.0 - 0.5 / (enough.segments - too_few.segments) as f64);
         }
-        Ok(found)
+        let stopped = progress.is_cancelled();
+        Ok(Approximated { stopped, ..found })
     }
 
     /// The first spacing that meets the request with `segments` segments, or the nearest.
@@ -299,31 +345,101 @@ impl Search<'_> {
         count: usize,
     ) -> Result<Approximated, ApproximationError> {
         let knots = self.request.knots(self.interval, respaced, count)?;
-        // Levels take time: compare them only within the tolerance.
-        let near = |distance: f64| (distance <= self.goal.tolerance).then_some(Places::Samples);
-        approximated(self.curve, &knots, respaced, self.request, near)
+        let tolerance = self.goal.tolerance;
+        approximated(
+            self.curve,
+            &knots,
+            respaced,
+            self.request,
+            Precision::Goal { tolerance },
+        )
     }
 }
 
-/// Approximate a curve at knots of its own parameter, or of a respaced one. `places` tells by the
-/// distance whether levels are compared, and how closely their features are placed.
+/// A number of segments, and the distance that was found with it.
+#[derive(Clone, Copy)]
+struct Tried {
+    segments: usize,
+    /// Not a number where there is none.
+    distance: f64,
+}
+
+impl Tried {
+    fn none(segments: usize) -> Self {
+        Self {
+            segments,
+            distance: f64::NAN,
+        }
+    }
+
+    fn of(segments: usize, tried: &Result<Approximated, ApproximationError>) -> Self {
+        let found = tried.as_ref().map(|tried| {
+            let ends = tried.end_errors.into_iter().flatten();
+            ends.fold(tried.deviation.found, f64::max)
+        });
+        Self {
+            segments,
+            distance: found.unwrap_or(f64::NAN),
+        }
+    }
+
+    /// The order of convergence from here to a larger number, if there is any.
+    fn order(&self, finer: &Self) -> Option<f64> {
+        let order = (self.distance / finer.distance).ln()
+            / (finer.segments as f64 / self.segments as f64).ln();
+        (order > 0.0 && order.is_finite()).then_some(order)
+    }
+
+    /// How many times the segments of a larger number are expected to reach a tolerance.
+    fn growth(&self, finer: &Self, tolerance: f64) -> f64 {
+        let (least, most) = GROWTH.into_inner();
+        let growth = |order: f64| (finer.distance / tolerance).powf(1.0 / order);
+        let growth = self.order(finer).map(growth);
+        growth.map_or(least, |growth| growth.clamp(least, most))
+    }
+
+    /// The number of segments, between this one and a larger one, that is expected to reach a tolerance just so.
+    fn between(&self, finer: &Self, tolerance: f64) -> usize {
+        let [low, high] = [self.segments, finer.segments];
+        let half = low + (high - low) / 2;
+        let is_above = self.distance > tolerance;
+        let Some(order) = self.order(finer).filter(|_| is_above) else {
+            return half;
+        };
+        let fewer = (finer.distance / tolerance).powf(1.0 / order);
+        let expected = (high as f64 * fewer).ceil() as usize;
+        // First a little above it, then a little below: what is between is as fine as it need be.
+        let margin = 1 + high / (2 * FINE);
+        let tried = match expected + margin < high {
+            true => expected + margin,
+            false => expected.saturating_sub(margin),
+        };
+        tried.clamp(low + 1, high - 1)
+    }
+}
+
+/// How much is told of an approximation.
+#[derive(Clone, Copy)]
+enum Precision {
+    /// Its distance, and features that are placed between samples.
+    Full,
+    /// Whether it is as near as a tolerance, and only then the features, placed at samples.
+    Goal { tolerance: f64 },
+}
+
+/// Approximate a curve at knots of its own parameter, or of a respaced one.
 fn approximated(
     curve: &dyn Differentiable,
     knots: &UniformKnots,
     respaced: Option<&Respaced>,
     request: &ApproximationRequest,
-    places: impl Fn(f64) -> Option<Places>,
+    precision: Precision,
 ) -> Result<Approximated, ApproximationError> {
     let (polygon, corrections) = match respaced {
         Some(respaced) => placed(respaced, knots, request.placing)?,
         None => placed(curve, knots, request.placing)?,
     };
     let interval = respaced.map_or(knots.interval(), Respaced::interval);
-    let reach = match respaced {
-        Some(respaced) if !knots.is_periodic() => knots.reach().map(|v| respaced.parameter(v)),
-        Some(_) => interval,
-        None => knots.reach(),
-    };
     let polygon = match request.fit_ends {
         true => with_ends(&polygon, curve, interval)?,
         false => polygon,
@@ -338,7 +454,12 @@ fn approximated(
     };
     let [from, to] = interval;
     let progress = Progress::default();
-    let deviation = MeasuredDeviation::measure(&polygon, curve, &parameter, reach, &progress)?;
+    let deviation = match precision {
+        Precision::Full => MeasuredDeviation::both_ways(&polygon, curve, &parameter, &progress),
+        Precision::Goal { tolerance } => {
+            MeasuredDeviation::within(tolerance, &polygon, curve, &parameter, &progress)
+        }
+    }?;
     let mut found = Approximated {
         interval,
         deviation,
@@ -347,9 +468,19 @@ fn approximated(
         levels: Vec::new(),
         spacing: respaced.map_or(Spacing::Parameter, |it| it.spacing),
         corrections,
+        stopped: false,
         polygon,
     };
-    if let Some(places) = places(found.distance()) {
+    let places = match precision {
+        Precision::Full => Places::Refined,
+        Precision::Goal { .. } => Places::Samples,
+    };
+    // Levels take time: compare them only within the tolerance.
+    let is_near = match precision {
+        Precision::Full => true,
+        Precision::Goal { tolerance } => found.distance() <= tolerance,
+    };
+    if is_near {
         found.levels = compare_levels(&found.polygon, curve, &parameter, request.levels, places);
     }
     Ok(found)

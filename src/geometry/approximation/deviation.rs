@@ -1,24 +1,19 @@
 //! Distance of a curve from the one that it approximates.
 
-use glam::DVec3;
-
+use super::bound::{Bound, Wanted};
 use super::error::ApproximationError;
+use super::spacing;
+use super::target::Target;
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::float_polygon::FloatPolygon;
-use crate::geometry::jet::Jet;
-use crate::geometry::nearest::refined_parameter;
 use crate::geometry::progress::Progress;
 use crate::geometry::root::maximum;
-use crate::geometry::vector;
 
 /// Samples a segment at which distances are measured.
 const SAMPLES: usize = 16;
 
 /// The least samples of the curve that distances are measured to.
 const LEAST_SAMPLES: usize = 256;
-
-/// Samples of that curve that share a box.
-const BLOCK: usize = 16;
 
 /// Maxima between samples are looked for about samples that reach this share of the largest.
 const NEARLY_LARGEST: f64 = 0.95;
@@ -31,8 +26,13 @@ const SECTIONS: usize = 15;
 /// of the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredDeviation {
-    /// The largest distance, to 1e-3 of itself: sampled at 16 parameters a segment, and refined.
+    /// The largest distance: a bound that is at most 1 % above it but for rounding, or to 1e-3 of itself what samples
+    /// show, 16 a segment, refined.
     pub largest: f64,
+    /// Whether that is a bound: nothing between samples is missed.
+    pub bounded: bool,
+    /// The largest distance that was found.
+    pub(super) found: f64,
     /// The parameter u where it is.
     pub u: f64,
     /// The parameter of the other curve's point that is nearest there.
@@ -56,51 +56,235 @@ impl MeasuredDeviation {
         reach: [f64; 2],
         progress: &Progress,
     ) -> Result<Self, ApproximationError> {
-        let segments = polygon.segments();
-        let count = (segments * SAMPLES).max(LEAST_SAMPLES);
-        let interval = [0, segments].map(|u| parameter(u as f64));
-        let target = Target::new(curve, interval, reach, count)?;
-        let nearest = |u: f64| target.nearest(polygon.point(u), parameter(u));
-        let distance = |u: f64| nearest(u).0;
-        let last = segments * SAMPLES;
-        let place = |index: usize| index as f64 / SAMPLES as f64;
-        let going_on = |index: usize| (!progress.is_cancelled()).then_some(index);
-        let distances = (0..=last).map(|index| Some(distance(place(going_on(index)?))));
-        let distances: Option<Vec<f64>> = distances.collect();
-        let distances = distances.ok_or(ApproximationError::Cancelled)?;
-        let mut found = (0..=last).fold(
-            Self {
-                largest: -1.0,
-                u: 0.0,
-                t: 0.0,
-                mean: mean(polygon, &distances),
-            },
-            |found, index| found.or(distances[index], place(index)),
-        );
-        let enough = NEARLY_LARGEST * found.largest;
-        for index in 0..=last {
-            going_on(index).ok_or(ApproximationError::Cancelled)?;
-            let (before, after) = (index.saturating_sub(1), (index + 1).min(last));
-            let here = distances[index];
-            if here >= enough && here >= distances[before] && here >= distances[after] {
-                let (u, largest) = maximum([place(before), place(after)], SECTIONS, distance);
-                found = found.or(largest, u);
-            }
-        }
-        found.t = nearest(found.u).1;
-        Ok(found)
+        Sides::new(polygon, curve, parameter, reach)?.one_way(progress)
     }
 
-    fn or(self, distance: f64, u: f64) -> Self {
-        if distance > self.largest {
-            Self {
-                largest: distance,
-                u,
-                ..self
+    /// Measure how far a curve and the part of another one that it runs along are from each other, both ways, within
+    /// their ends: by a bound where the other curve is enclosed, otherwise by samples.
+    ///
+    /// # Errors
+    /// As [`MeasuredDeviation::measure`].
+    pub(super) fn both_ways(
+        polygon: &FloatPolygon,
+        curve: &dyn Differentiable,
+        parameter: &dyn Fn(f64) -> f64,
+        progress: &Progress,
+    ) -> Result<Self, ApproximationError> {
+        let interval = [0, polygon.segments()].map(|u| parameter(u as f64));
+        let sides = Sides::new(polygon, curve, parameter, interval)?;
+        let sampled = sides.both_ways(progress)?;
+        let wanted = Wanted::Tight {
+            found: sampled.largest,
+            there: &|u| sides.from_here(u).1,
+            here: &|t| sides.from_there(t).1,
+        };
+        let Some(bound) = Bound::of(polygon, curve, parameter, wanted) else {
+            return Ok(sampled);
+        };
+        let found = sampled.largest.max(bound.at_least);
+        let [u, t] = match found > sampled.largest {
+            true => bound.place,
+            false => [sampled.u, sampled.t],
+        };
+        let bounded = bound.is_close(found);
+        Ok(Self {
+            largest: if bounded { bound.at_most } else { found },
+            bounded,
+            found,
+            u,
+            t,
+            mean: sampled.mean,
+        })
+    }
+
+    /// Tell whether two curves are as near as a tolerance, both ways: if not, by a distance that is reached, and that
+    /// need not be the largest.
+    ///
+    /// # Errors
+    /// As [`MeasuredDeviation::measure`].
+    pub(super) fn within(
+        tolerance: f64,
+        polygon: &FloatPolygon,
+        curve: &dyn Differentiable,
+        parameter: &dyn Fn(f64) -> f64,
+        progress: &Progress,
+    ) -> Result<Self, ApproximationError> {
+        let wanted = Wanted::Within { tolerance };
+        let bound = Bound::of(polygon, curve, parameter, wanted);
+        let decided = bound.filter(|it| it.at_least > tolerance || it.at_most <= tolerance);
+        let Some(bound) = decided else {
+            let interval = [0, polygon.segments()].map(|u| parameter(u as f64));
+            return Sides::new(polygon, curve, parameter, interval)?.both_ways(progress);
+        };
+        let bounded = bound.at_most <= tolerance;
+        let [u, t] = bound.place;
+        Ok(Self {
+            largest: if bounded {
+                bound.at_most
+            } else {
+                bound.at_least
+            },
+            bounded,
+            found: bound.at_least,
+            u,
+            t,
+            mean: bound.mean,
+        })
+    }
+}
+
+/// Two curves beside each other, sampled so that distances can be measured both ways.
+struct Sides<'a> {
+    polygon: &'a FloatPolygon,
+    curve: &'a dyn Differentiable,
+    parameter: &'a dyn Fn(f64) -> f64,
+    /// Parameters u, and those t of the other curve that are near.
+    places: Vec<[f64; 2]>,
+    here: Target<'a>,
+    there: Target<'a>,
+}
+
+impl<'a> Sides<'a> {
+    /// Sample a polygon's curve, and the one that it runs beside, beyond its end as far as `reach`.
+    fn new(
+        polygon: &'a FloatPolygon,
+        curve: &'a dyn Differentiable,
+        parameter: &'a dyn Fn(f64) -> f64,
+        reach: [f64; 2],
+    ) -> Result<Self, ApproximationError> {
+        let segments = polygon.segments();
+        let place = |index: usize| {
+            let u = index as f64 / SAMPLES as f64;
+            [u, parameter(u)]
+        };
+        let places: Vec<[f64; 2]> = (0..=segments * SAMPLES).map(place).collect();
+        let count = (segments * SAMPLES).max(LEAST_SAMPLES);
+        let share = segments as f64 / count as f64;
+        let [from, to] = [0, segments].map(|u| parameter(u as f64));
+        // Where the other curve changes at once, even samples do not show where it is.
+        let mut parameters: Vec<f64> = spacing::places(curve, [from, to]);
+        parameters.extend((0..=count).map(|index| parameter(index as f64 * share)));
+        parameters.sort_by(f64::total_cmp);
+        parameters.dedup();
+        let step = (to - from) / count as f64;
+        let beyond = |end: f64, step: f64, most: f64| {
+            let steps = ((most - end) / step).floor().clamp(0.0, count as f64) as usize;
+            let beyond = (1..=steps).map(|index| end + step * index as f64);
+            beyond.collect::<Vec<f64>>()
+        };
+        let beyond = [beyond(from, -step, reach[0]), beyond(to, step, reach[1])];
+        let own = places.iter().map(|[u, _]| *u);
+        Ok(Self {
+            here: Target::new(polygon, own, [vec![], vec![]])?,
+            there: Target::new(curve, parameters.into_iter(), beyond)?,
+            polygon,
+            curve,
+            parameter,
+            places,
+        })
+    }
+
+    /// The distance of the polygon's curve at u from the other one, and the parameter t there.
+    fn from_here(&self, u: f64) -> (f64, f64) {
+        self.there
+            .nearest(self.polygon.point(u), (self.parameter)(u))
+    }
+
+    /// The distance of the other curve at t from the polygon's, and the parameter u there.
+    fn from_there(&self, t: f64) -> (f64, f64) {
+        let after = self.places.partition_point(|[_, place]| *place < t);
+        let near = self.places.get(after).or(self.places.last());
+        let point = self.curve.derivatives(t, 0)[0];
+        self.here.nearest(point, near.map_or(0.0, |[u, _]| *u))
+    }
+
+    /// Measure how far the polygon's curve is from the other one.
+    fn one_way(&self, progress: &Progress) -> Result<MeasuredDeviation, ApproximationError> {
+        let places: Vec<f64> = self.places.iter().map(|[u, _]| *u).collect();
+        let distance = |u: f64| self.from_here(u).0;
+        let samples = Samples::new(&places, &distance, progress)?;
+        let (u, largest) = samples.largest(0.0, progress)?;
+        Ok(MeasuredDeviation {
+            largest,
+            bounded: false,
+            found: largest,
+            u,
+            t: self.from_here(u).1,
+            mean: mean(self.polygon, &samples.distances),
+        })
+    }
+
+    /// Measure how far each curve is from the other one at most.
+    fn both_ways(&self, progress: &Progress) -> Result<MeasuredDeviation, ApproximationError> {
+        let here = self.one_way(progress)?;
+        let places: Vec<f64> = self.places.iter().map(|[_, t]| *t).collect();
+        let distance = |t: f64| self.from_there(t).0;
+        let samples = Samples::new(&places, &distance, progress)?;
+        let (t, largest) = samples.largest(here.largest, progress)?;
+        Ok(match largest > here.largest {
+            true => MeasuredDeviation {
+                largest,
+                found: largest,
+                u: self.from_there(t).1,
+                t,
+                ..here
+            },
+            false => here,
+        })
+    }
+}
+
+/// Distances at some places.
+struct Samples<'a> {
+    places: &'a [f64],
+    distance: &'a dyn Fn(f64) -> f64,
+    distances: Vec<f64>,
+}
+
+impl<'a> Samples<'a> {
+    fn new(
+        places: &'a [f64],
+        distance: &'a dyn Fn(f64) -> f64,
+        progress: &Progress,
+    ) -> Result<Self, ApproximationError> {
+        let going_on = |place: &f64| (!progress.is_cancelled()).then_some(*place);
+        let distances = places.iter().map(|place| Some(distance(going_on(place)?)));
+        let distances: Option<Vec<f64>> = distances.collect();
+        Ok(Self {
+            places,
+            distance,
+            distances: distances.ok_or(ApproximationError::Cancelled)?,
+        })
+    }
+
+    /// Find the largest distance, and where it is, between the samples too if it may be above a `known` one.
+    fn largest(&self, known: f64, progress: &Progress) -> Result<(f64, f64), ApproximationError> {
+        let larger = |known: (f64, f64), other: (f64, f64)| {
+            if other.1 > known.1 { other } else { known }
+        };
+        let pairs = self
+            .places
+            .iter()
+            .copied()
+            .zip(self.distances.iter().copied());
+        let sampled = pairs.fold((0.0, -1.0), larger);
+        let enough = NEARLY_LARGEST * sampled.1.max(known);
+        let last = self.places.len() - 1;
+        let mut found = sampled;
+        for (index, here) in self.distances.iter().enumerate() {
+            if progress.is_cancelled() {
+                return Err(ApproximationError::Cancelled);
             }
-        } else {
-            self
+            let beside = [index.saturating_sub(1), (index + 1).min(last)];
+            let [before, after] = beside.map(|beside| self.distances[beside]);
+            // Of equal samples the first one counts.
+            let is_highest = (*here > before || index == 0) && *here >= after;
+            if *here >= enough && is_highest {
+                let bracket = beside.map(|index| self.places[index]);
+                found = larger(found, maximum(bracket, SECTIONS, self.distance));
+            }
         }
+        Ok(found)
     }
 }
 
@@ -115,126 +299,4 @@ fn mean(polygon: &FloatPolygon, distances: &[f64]) -> f64 {
         length += weight;
     }
     if length > 0.0 { sum / length } else { 0.0 }
-}
-
-/// A curve to measure distances to, sampled at even parameters.
-struct Target<'a> {
-    curve: &'a dyn Differentiable,
-    samples: Vec<(f64, DVec3)>,
-    step: f64,
-    blocks: Vec<Block>,
-}
-
-/// Some samples that follow each other.
-struct Block {
-    first: usize,
-    low: DVec3,
-    high: DVec3,
-    /// Margin of the box: the curve leaves it by at most half of the longest step.
-    margin: f64,
-}
-
-impl<'a> Target<'a> {
-    /// Sample a curve at `count` steps of an interval, and beyond it as far as `reach` while there are
-    /// points.
-    fn new(
-        curve: &'a dyn Differentiable,
-        [from, to]: [f64; 2],
-        reach: [f64; 2],
-        count: usize,
-    ) -> Result<Self, ApproximationError> {
-        let step = (to - from) / count as f64;
-        let sample = |parameter: f64| (parameter, curve.derivatives(parameter, 0)[0]);
-        let beyond = |end: f64, step: f64, most: f64| {
-            let steps = ((most - end) / step).floor().clamp(0.0, count as f64) as usize;
-            let samples = (1..=steps).map(move |index| sample(end + step * index as f64));
-            samples.take_while(|(_, point)| point.is_finite())
-        };
-        let mut samples: Vec<(f64, DVec3)> = beyond(from, -step, reach[0]).collect();
-        samples.reverse();
-        for index in 0..=count {
-            let share = index as f64 / count as f64;
-            let (parameter, point) = sample(from * (1.0 - share) + to * share);
-            if !point.is_finite() {
-                return Err(ApproximationError::NoPoint { parameter });
-            }
-            samples.push((parameter, point));
-        }
-        samples.extend(beyond(to, step, reach[1]));
-        let blocks = (0..samples.len() - 1).step_by(BLOCK);
-        Ok(Self {
-            blocks: blocks.map(|first| Block::new(&samples, first)).collect(),
-            curve,
-            samples,
-            step,
-        })
-    }
-
-    /// The distance of a point from the curve, and the parameter of the nearest point there; `near` is a
-    /// parameter in its neighbourhood.
-    fn nearest(&self, point: DVec3, near: f64) -> (f64, f64) {
-        let last = self.samples.len() - 1;
-        let start = ((near - self.samples[0].0) / self.step).round();
-        let mut best = self.refined(point, (start.max(0.0) as usize).min(last));
-        for block in &self.blocks {
-            let box_distance = point.distance(point.clamp(block.low, block.high));
-            if box_distance - block.margin >= best.0 {
-                continue;
-            }
-            let samples = block.first..=(block.first + BLOCK).min(last);
-            let distances = samples.map(|index| (self.samples[index].1.distance(point), index));
-            let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((distance, index)) = nearest
-                && distance - block.margin < best.0
-            {
-                let refined = self.refined(point, index);
-                if refined.0 < best.0 {
-                    best = refined;
-                }
-            }
-        }
-        best
-    }
-
-    /// The distance from the curve near one of its samples, and where that is.
-    fn refined(&self, point: DVec3, index: usize) -> (f64, f64) {
-        let last = self.samples.len() - 1;
-        let bracket = [index.saturating_sub(1), (index + 1).min(last)];
-        let bracket = bracket.map(|index| self.samples[index].0);
-        let jet = |t: f64| {
-            let values = self.curve.derivatives(t, 2);
-            Jet {
-                point: values[0],
-                first: values[1],
-                second: values[2],
-                third: DVec3::ZERO,
-            }
-        };
-        let (start, sample) = self.samples[index];
-        let t = refined_parameter(point, start, bracket, jet);
-        let refined = self.curve.derivatives(t, 0)[0].distance(point);
-        let sampled = sample.distance(point);
-        // Where the curve has no derivatives the sample counts.
-        if refined < sampled {
-            (refined, t)
-        } else {
-            (sampled, start)
-        }
-    }
-}
-
-impl Block {
-    /// The samples from `first` to the first one of the next block.
-    fn new(samples: &[(f64, DVec3)], first: usize) -> Self {
-        let last = (first + BLOCK).min(samples.len() - 1);
-        let samples = &samples[first..=last];
-        let steps = samples.windows(2).map(|step| step[0].1.distance(step[1].1));
-        let (low, high) = vector::bounds(samples.iter().map(|(_, point)| point));
-        Self {
-            first,
-            low,
-            high,
-            margin: 0.5 * steps.fold(0.0, f64::max),
-        }
-    }
 }

@@ -1,6 +1,7 @@
 //! Float polygons near curves that are no float polygons, or of another degree.
 
 mod approximating;
+mod bound;
 mod deviation;
 mod equivalence;
 mod error;
@@ -8,6 +9,7 @@ mod fitting;
 mod knots;
 mod placing;
 mod spacing;
+mod target;
 mod watched;
 
 pub use approximating::{

@@ -1,15 +1,25 @@
 //! Other parameters for a curve, so that even steps are finer where it bends.
 
+use std::ops::RangeInclusive;
+
 use glam::DVec3;
 
 use super::error::ApproximationError;
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::error::MAX_DEGREE;
+use crate::geometry::interval::Interval;
 use crate::geometry::power_series::PowerSeries;
 use crate::geometry::quadrature::quadrature;
 
-/// Steps of the table by which parameters are found.
+/// Even steps of the table by which parameters are found, to begin with.
 const STEPS: usize = 128;
+
+/// The most steps of the table: where a curve changes more often, its lengths are rough.
+const MOST_STEPS: usize = 4096;
+
+/// The order of the polynomials that a curve looks like along a step, and the largest share of their terms that the
+/// rest may have.
+const LOOKS: (usize, f64) = (5, 0.5);
 
 /// Newton's steps from there, whole ones and shortened ones: far more than it takes where the curve goes on.
 const NEWTON_STEPS: usize = 100;
@@ -70,14 +80,10 @@ impl<'a> Respaced<'a> {
             radius: 0.0,
             table: Vec::new(),
         };
-        let place = |step: usize| {
-            let share = step as f64 / STEPS as f64;
-            from * (1.0 - share) + to * share
-        };
+        let places = places(curve, [from, to]);
         if spacing == Spacing::Curvature {
-            let spans = (0..STEPS).map(|step| [place(step), place(step + 1)]);
-            let totals = spans.fold([0.0; 2], |sums, [from, to]| {
-                let values = quadrature(from, to, &|t| {
+            let totals = places.windows(2).fold([0.0; 2], |sums, step| {
+                let values = quadrature(step[0], step[1], &|t| {
                     let (speed, turning) = respaced.rates(t, 0);
                     [speed.value(), turning.value().max(0.0).sqrt()]
                 });
@@ -89,14 +95,14 @@ impl<'a> Respaced<'a> {
         }
         let mut measure = 0.0;
         respaced.table.push((from, 0.0));
-        for step in 0..STEPS {
-            let more = respaced.measure(place(step), place(step + 1));
+        for step in places.windows(2) {
+            let more = respaced.measure(step[0], step[1]);
             if !(more > 0.0 && more.is_finite()) {
-                let parameter = place(step);
+                let parameter = step[0];
                 return Err(ApproximationError::NoDirection { parameter });
             }
             measure += more;
-            respaced.table.push((place(step + 1), measure));
+            respaced.table.push((step[1], measure));
         }
         Ok(respaced)
     }
@@ -104,7 +110,7 @@ impl<'a> Respaced<'a> {
     /// The parameter t that belongs to v; beyond \[0, 1\] the curve is continued. Not a number where it does not
     /// go on so far.
     pub fn parameter(&self, v: f64) -> f64 {
-        let (_, total) = self.table[STEPS];
+        let total = self.total();
         let wanted = v * total;
         let above = self.table.partition_point(|(_, measure)| *measure < wanted);
         let (start, below) = self.table[above.saturating_sub(1)];
@@ -154,15 +160,19 @@ impl<'a> Respaced<'a> {
 
     /// The parameters t between which the curve is measured.
     pub fn interval(&self) -> [f64; 2] {
-        [self.table[0].0, self.table[STEPS].0]
+        [self.table[0].0, self.table[self.table.len() - 1].0]
+    }
+
+    /// The whole measure.
+    fn total(&self) -> f64 {
+        self.table[self.table.len() - 1].1
     }
 
     /// A parameter near that of v in \[0, 1\], without computing it: between even steps of a table.
     pub fn near(&self, v: f64) -> f64 {
-        let (_, total) = self.table[STEPS];
-        let wanted = v.clamp(0.0, 1.0) * total;
+        let wanted = v.clamp(0.0, 1.0) * self.total();
         let above = self.table.partition_point(|(_, measure)| *measure < wanted);
-        let above = above.clamp(1, STEPS);
+        let above = above.clamp(1, self.table.len() - 1);
         let ((from, low), (to, high)) = (self.table[above - 1], self.table[above]);
         let share = (wanted - low) / (high - low);
         from * (1.0 - share) + to * share
@@ -193,11 +203,53 @@ impl<'a> Respaced<'a> {
     }
 }
 
+/// Parameters along which a curve looks like polynomials, from one to the next: even ones, and more where its bounds
+/// over a step show more than those (a step, a peak that no sample meets).
+pub(super) fn places(curve: &dyn Differentiable, [from, to]: [f64; 2]) -> Vec<f64> {
+    let place = |step: usize| {
+        let share = step as f64 / STEPS as f64;
+        from * (1.0 - share) + to * share
+    };
+    let mut left: Vec<[f64; 2]> = (0..STEPS)
+        .map(|step| [place(step), place(step + 1)])
+        .collect();
+    left.reverse();
+    let mut places = vec![from];
+    while let Some([from, to]) = left.pop() {
+        let middle = from + 0.5 * (to - from);
+        let can_halve = from < middle && middle < to && places.len() + left.len() < MOST_STEPS;
+        if can_halve && looks_like_polynomial(curve, [from, to]) == Some(false) {
+            left.extend([[middle, to], [from, middle]]);
+        } else {
+            places.push(to);
+        }
+    }
+    places
+}
+
+/// Whether what a curve has beside its Taylor polynomial about the middle of an interval is small along it; `None` if
+/// nothing is known of it between samples.
+fn looks_like_polynomial(curve: &dyn Differentiable, [from, to]: [f64; 2]) -> Option<bool> {
+    let (order, most) = LOOKS;
+    let half = 0.5 * (to - from);
+    let size = |t: Interval, orders: RangeInclusive<usize>| {
+        let t = PowerSeries::of_coefficients(&[t, Interval::number(half)], order);
+        let axes = curve.enclosed(&t)?;
+        let coefficients = axes
+            .iter()
+            .flat_map(|axis| &axis.coefficients()[orders.clone()]);
+        Some(coefficients.fold(0.0, |most: f64, it| most.max(it.magnitude())))
+    };
+    let polynomial = size(Interval::number(from + half), 1..=order - 1)?;
+    let rest = size(Interval::new(from, to), order..=order)?;
+    Some(rest <= most * polynomial)
+}
+
 impl Differentiable for Respaced<'_> {
     /// With t(v): t′ = M / w(t), M the whole measure; the curve is a composition of series.
     fn derivatives(&self, v: f64, order: usize) -> Vec<DVec3> {
         let t = self.parameter(v);
-        let (_, total) = self.table[STEPS];
+        let total = self.total();
         let order = order.min(MAX_DEGREE);
         let rate = &PowerSeries::constant(total, order) / &self.weight(t, order);
         let mut inner = PowerSeries::constant(t, 0);

@@ -3,6 +3,8 @@
 use glam::DVec3;
 
 use crate::geometry::differentiable::Differentiable;
+use crate::geometry::interval::Interval;
+use crate::geometry::power_series::PowerSeries;
 use crate::geometry::progress::Progress;
 
 /// A curve without points from the moment on at which a computation is cancelled: tables of lengths, vertices,
@@ -24,6 +26,13 @@ impl Differentiable for Watched<'_> {
         match self.progress.is_cancelled() {
             true => vec![DVec3::NAN; order + 1],
             false => self.curve.derivatives(t, order),
+        }
+    }
+
+    fn enclosed(&self, t: &PowerSeries<Interval>) -> Option<[PowerSeries<Interval>; 3]> {
+        match self.progress.is_cancelled() {
+            true => None,
+            false => self.curve.enclosed(t),
         }
     }
 }

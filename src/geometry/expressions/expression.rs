@@ -1,8 +1,8 @@
 //! Expressions as trees, and their power series.
 
-use super::function::Function;
-use super::range::{Gap, ValueRange};
+use super::function::{Argument, Function};
 use super::unit::Unit;
+use crate::geometry::interval::{Gap, Interval};
 use crate::geometry::power_series::PowerSeries;
 
 /// The most intervals that are looked at for a place without a value: some hundred lead to a pole.
@@ -42,8 +42,8 @@ impl Expression {
         let mut left = vec![[from, to]];
         for _ in 0..MOST_INTERVALS {
             let [low, high] = left.pop()?;
-            let range = self.range(ValueRange::new(low, high));
-            let Err(gap) = range.and_then(ValueRange::of_coordinate) else {
+            let range = self.range(Interval::new(low, high));
+            let Err(gap) = range.and_then(Interval::of_coordinate) else {
                 continue;
             };
             let middle = low + 0.5 * (high - low);
@@ -59,7 +59,7 @@ impl Expression {
     }
 
     fn has_slope(&self, t: f64) -> bool {
-        let series = self.series(t, 1);
+        let series = self.series(&PowerSeries::parameter(t, 1));
         series.coefficients().iter().all(|it| it.is_finite())
     }
 
@@ -74,28 +74,28 @@ impl Expression {
         }
     }
 
-    /// Expand it about t: angles are in radians.
-    pub(in crate::geometry) fn series(&self, t: f64, order: usize) -> PowerSeries {
+    /// Expand it for the series of t: angles are in radians.
+    pub(in crate::geometry) fn series<T: Argument>(&self, t: &PowerSeries<T>) -> PowerSeries<T> {
         match self {
-            Self::Number(number) => PowerSeries::constant(*number, order),
-            Self::Parameter => PowerSeries::parameter(t, order),
-            Self::Negative(inner) => -&inner.series(t, order),
+            Self::Number(number) => PowerSeries::constant(T::of(*number), t.order()),
+            Self::Parameter => t.clone(),
+            Self::Negative(inner) => -&inner.series(t),
             // Formulas are read without units of length; radians are what series have.
             Self::InUnit(Unit::Degree, _, inner) => {
-                inner.series(t, order).times(1_f64.to_radians())
+                inner.series(t).times(T::of(1_f64.to_radians()))
             }
-            Self::InUnit(Unit::Radian | Unit::Length(_), _, inner) => inner.series(t, order),
+            Self::InUnit(Unit::Radian | Unit::Length(_), _, inner) => inner.series(t),
             Self::Call(function, _, arguments) => {
-                let arguments = arguments.iter().map(|argument| argument.series(t, order));
+                let arguments = arguments.iter().map(|argument| argument.series(t));
                 function.of(&arguments.collect::<Vec<_>>())
             }
             Self::Combined(operator, _, operands) => {
                 let [left, right] = &**operands;
-                let base = left.series(t, order);
+                let base = left.series(t);
                 if *operator == Operator::Power && !right.depends_on_parameter() {
                     return base.power(right.value());
                 }
-                let other = right.series(t, order);
+                let other = right.series(t);
                 match operator {
                     Operator::Plus => &base + &other,
                     Operator::Minus => &base - &other,
@@ -109,7 +109,7 @@ impl Expression {
 
     /// The value of an expression without t.
     pub(in crate::geometry) fn value(&self) -> f64 {
-        self.series(0.0, 0).value()
+        self.series(&PowerSeries::constant(0.0, 0)).value()
     }
 
     /// Whether an expression without t divides by zero.
@@ -131,14 +131,14 @@ impl Expression {
     }
 
     /// Bound its values for t in a range.
-    fn range(&self, t: ValueRange) -> Result<ValueRange, Gap> {
+    fn range(&self, t: Interval) -> Result<Interval, Gap> {
         match self {
-            Self::Number(number) => Ok(ValueRange::number(*number)),
+            Self::Number(number) => Ok(Interval::number(*number)),
             Self::Parameter => Ok(t),
             Self::Negative(inner) => Ok(inner.range(t)?.negative()),
-            Self::InUnit(Unit::Degree, _, inner) => inner
-                .range(t)?
-                .times(ValueRange::number(1_f64.to_radians())),
+            Self::InUnit(Unit::Degree, _, inner) => {
+                inner.range(t)?.times(Interval::number(1_f64.to_radians()))
+            }
             Self::InUnit(Unit::Radian | Unit::Length(_), _, inner) => inner.range(t),
             Self::Call(function, _, arguments) => {
                 let arguments = arguments.iter().map(|argument| argument.range(t));

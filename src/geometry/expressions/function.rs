@@ -1,7 +1,8 @@
 //! The functions that expressions can name.
 
 use super::degrees::{sin_cos_of_degrees, tan_of_degrees};
-use super::range::{Gap, ValueRange};
+use crate::geometry::coefficient::Coefficient;
+use crate::geometry::interval::{Gap, Interval};
 use crate::geometry::power_series::PowerSeries;
 
 /// A function that expressions can name.
@@ -34,125 +35,160 @@ pub(super) enum FunctionKind {
 
 #[derive(Clone, Copy)]
 enum Body {
-    One(
-        OfOne<PowerSeries>,
-        fn(ValueRange) -> Result<ValueRange, Gap>,
-    ),
-    Two(
-        OfTwo<PowerSeries>,
-        fn(ValueRange, ValueRange) -> Result<ValueRange, Gap>,
-    ),
+    One(One, fn(Interval) -> Result<Interval, Gap>),
+    Two(Two, fn(Interval, Interval) -> Result<Interval, Gap>),
 }
 
-type OfOne<T> = fn(&T) -> T;
-type OfTwo<T> = fn(&T, &T) -> T;
+type OfOne<T> = fn(&PowerSeries<T>) -> PowerSeries<T>;
+type OfTwo<T> = fn(&PowerSeries<T>, &PowerSeries<T>) -> PowerSeries<T>;
+
+/// A function of one argument, of numbers and of bounds.
+#[derive(Clone, Copy)]
+pub(in crate::geometry) struct One {
+    of_numbers: OfOne<f64>,
+    of_bounds: OfOne<Interval>,
+}
+
+/// A function of two arguments, of numbers and of bounds.
+#[derive(Clone, Copy)]
+pub(in crate::geometry) struct Two {
+    of_numbers: OfTwo<f64>,
+    of_bounds: OfTwo<Interval>,
+}
+
+/// Coefficients that functions take.
+pub(in crate::geometry) trait Argument: Coefficient {
+    /// A function of one argument.
+    fn one(function: One) -> OfOne<Self>;
+
+    /// A function of two arguments.
+    fn two(function: Two) -> OfTwo<Self>;
+}
+
+impl Argument for f64 {
+    fn one(function: One) -> OfOne<Self> {
+        function.of_numbers
+    }
+
+    fn two(function: Two) -> OfTwo<Self> {
+        function.of_numbers
+    }
+}
+
+impl Argument for Interval {
+    fn one(function: One) -> OfOne<Self> {
+        function.of_bounds
+    }
+
+    fn two(function: Two) -> OfTwo<Self> {
+        function.of_bounds
+    }
+}
+
+/// A function of one argument, by its series, for numbers and for bounds, and its range.
+macro_rules! one {
+    ($name:literal, $kind:expr, $of:expr, $over:expr $(,)?) => {{
+        let (of_numbers, of_bounds): (OfOne<f64>, OfOne<Interval>) = ($of, $of);
+        let one = One {
+            of_numbers,
+            of_bounds,
+        };
+        Function {
+            name: $name,
+            kind: $kind,
+            of: Body::One(one, $over),
+        }
+    }};
+}
+
+/// A function of two arguments, as `one!`.
+macro_rules! two {
+    ($name:literal, $kind:expr, $of:expr, $over:expr $(,)?) => {{
+        let (of_numbers, of_bounds): (OfTwo<f64>, OfTwo<Interval>) = ($of, $of);
+        let two = Two {
+            of_numbers,
+            of_bounds,
+        };
+        Function {
+            name: $name,
+            kind: $kind,
+            of: Body::Two(two, $over),
+        }
+    }};
+}
 
 /// The functions that there are.
 const FUNCTIONS: &[Function] = &[
-    one(
+    one!(
         "sin",
         FunctionKind::OfAngle(|degrees| sin_cos_of_degrees(degrees).0),
         |f| f.sin_cos().0,
-        ValueRange::sin,
+        Interval::sin,
     ),
-    one(
+    one!(
         "cos",
         FunctionKind::OfAngle(|degrees| sin_cos_of_degrees(degrees).1),
         |f| f.sin_cos().1,
-        ValueRange::cos,
+        Interval::cos,
     ),
-    one(
+    one!(
         "tan",
         FunctionKind::OfAngle(tan_of_degrees),
         PowerSeries::tan,
-        ValueRange::tan,
+        Interval::tan,
     ),
-    one(
+    one!(
         "asin",
         FunctionKind::ToAngle,
         PowerSeries::asin,
-        ValueRange::asin,
+        Interval::asin,
     ),
-    one(
+    one!(
         "acos",
         FunctionKind::ToAngle,
         PowerSeries::acos,
-        ValueRange::acos,
+        Interval::acos,
     ),
-    one("atan", FunctionKind::ToAngle, PowerSeries::atan, |f| {
+    one!("atan", FunctionKind::ToAngle, PowerSeries::atan, |f| {
         f.rising(f64::atan)
     }),
-    one(
-        "sinh",
-        FunctionKind::Plain,
-        |f| f.sinh_cosh().0,
-        |f| f.rising(f64::sinh),
-    ),
-    one(
+    one!("sinh", FunctionKind::Plain, |f| f.sinh_cosh().0, |f| f
+        .rising(f64::sinh),),
+    one!(
         "cosh",
         FunctionKind::Plain,
         |f| f.sinh_cosh().1,
-        ValueRange::cosh,
+        Interval::cosh,
     ),
-    one("tanh", FunctionKind::Plain, PowerSeries::tanh, |f| {
+    one!("tanh", FunctionKind::Plain, PowerSeries::tanh, |f| {
         f.rising(f64::tanh)
     }),
-    one("exp", FunctionKind::Plain, PowerSeries::exp, |f| {
+    one!("exp", FunctionKind::Plain, PowerSeries::exp, |f| {
         f.rising(f64::exp)
     }),
-    one("ln", FunctionKind::Plain, PowerSeries::ln, ValueRange::ln),
-    one(
-        "sqrt",
-        FunctionKind::Root,
-        |f| f.power(0.5),
-        |f| f.power(0.5),
-    ),
-    one("abs", FunctionKind::Same, PowerSeries::abs, |f| Ok(f.abs())),
-    two(
-        "min",
-        FunctionKind::Same,
-        |f, g| if f.value() <= g.value() { f } else { g }.clone(),
-        |f, g| Ok(f.lower(g)),
-    ),
-    two(
-        "max",
-        FunctionKind::Same,
-        |f, g| if f.value() >= g.value() { f } else { g }.clone(),
-        |f, g| Ok(f.upper(g)),
-    ),
-    two(
+    one!("ln", FunctionKind::Plain, PowerSeries::ln, Interval::ln),
+    one!("sqrt", FunctionKind::Root, |f| f.power(0.5), |f| f
+        .power(0.5),),
+    one!("abs", FunctionKind::Same, PowerSeries::abs, |f| Ok(f.abs())),
+    two!("min", FunctionKind::Same, PowerSeries::lower, |f, g| Ok(
+        f.lower(g)
+    ),),
+    two!("max", FunctionKind::Same, PowerSeries::upper, |f, g| Ok(
+        f.upper(g)
+    ),),
+    two!(
         "hypot",
         FunctionKind::Same,
-        |f, g| (&(f * f) + &(g * g)).power(0.5),
+        |f, g| (&f.squared() + &g.squared()).power(0.5),
         |f, g| f.power(2.0)?.plus(g.power(2.0)?)?.power(0.5),
     ),
-    two(
+    two!(
         "atan2",
         FunctionKind::Direction,
         PowerSeries::direction,
-        ValueRange::direction,
+        Interval::direction,
     ),
 ];
-
-const fn one(
-    name: &'static str,
-    kind: FunctionKind,
-    of: OfOne<PowerSeries>,
-    over: fn(ValueRange) -> Result<ValueRange, Gap>,
-) -> Function {
-    let of = Body::One(of, over);
-    Function { name, kind, of }
-}
-
-const fn two(
-    name: &'static str,
-    kind: FunctionKind,
-    of: OfTwo<PowerSeries>,
-    over: fn(ValueRange, ValueRange) -> Result<ValueRange, Gap>,
-) -> Function {
-    let of = Body::Two(of, over);
-    Function { name, kind, of }
-}
 
 /// List the names of the functions that there are.
 pub(super) fn function_names() -> Vec<&'static str> {
@@ -175,11 +211,11 @@ impl Function {
     }
 
     /// Its power series, of those of its arguments; no number if they are not as many as it has.
-    pub(super) fn of(self, arguments: &[PowerSeries]) -> PowerSeries {
+    pub(super) fn of<T: Argument>(self, arguments: &[PowerSeries<T>]) -> PowerSeries<T> {
         match (self.of, arguments) {
-            (Body::One(of, _), [f]) => of(f),
-            (Body::Two(of, _), [f, g]) => of(f, g),
-            _ => PowerSeries::constant(f64::NAN, 0),
+            (Body::One(of, _), [f]) => T::one(of)(f),
+            (Body::Two(of, _), [f, g]) => T::two(of)(f, g),
+            _ => PowerSeries::constant(T::UNKNOWN, 0),
         }
     }
 
@@ -187,7 +223,7 @@ impl Function {
     ///
     /// # Errors
     /// [`Gap`] where it may have none, and if the arguments are not as many as it has.
-    pub(super) fn over(self, arguments: &[ValueRange]) -> Result<ValueRange, Gap> {
+    pub(super) fn over(self, arguments: &[Interval]) -> Result<Interval, Gap> {
         match (self.of, arguments) {
             (Body::One(_, over), [f]) => over(*f),
             (Body::Two(_, over), [f, g]) => over(*f, *g),

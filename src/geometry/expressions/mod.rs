@@ -11,7 +11,6 @@ mod expression;
 mod function;
 mod measure;
 mod number_context;
-mod range;
 mod reading;
 mod unit;
 
@@ -19,5 +18,6 @@ pub use brackets::parts;
 pub use degrees::sin_cos_of_degrees;
 pub use error::{ExpressionError, ExpressionMistake, NoNumber};
 pub(in crate::geometry) use expression::Expression;
+pub(in crate::geometry) use function::Argument;
 pub use number_context::NumberContext;
 pub use unit::LengthUnit;

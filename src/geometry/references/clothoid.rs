@@ -2,6 +2,7 @@
 
 use super::integral::{MOST_TURNING, unit_speed};
 use super::kind::{Coordinates, ReferenceKind};
+use crate::geometry::coefficient::Coefficient;
 use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
@@ -18,7 +19,7 @@ pub static KIND: ReferenceKind = ReferenceKind {
     )],
     interval: |values| [0.0, 2.0 * values[0]],
     domain,
-    coordinates: Coordinates::Planar(coordinates),
+    coordinates: Coordinates::Planar(coordinates, Some(coordinates)),
 };
 
 /// The direction turns by as much as can be computed.
@@ -27,9 +28,9 @@ fn domain(values: &[f64]) -> [f64; 2] {
     [-end, end]
 }
 
-fn coordinates(values: &[f64], s: &PowerSeries) -> [PowerSeries; 2] {
+fn coordinates<T: Coefficient>(values: &[f64], s: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
     let angle = |s: f64| 0.5 * (s / values[0]).powi(2);
-    let relative = s.clone().times(1.0 / values[0]);
-    let expansion = (&relative * &relative).times(0.5);
+    let relative = s.clone().times(T::of(1.0) / T::of(values[0]));
+    let expansion = relative.squared().times(T::of(0.5));
     unit_speed((KIND.name, values), s, angle, &expansion)
 }

@@ -7,6 +7,7 @@ use super::form::ReferenceForm;
 use super::placement::Placement;
 use crate::geometry::control_polygon::MAX_MAGNITUDE;
 use crate::geometry::differentiable::Differentiable;
+use crate::geometry::interval::Interval;
 use crate::geometry::parametric_curve::ParametricCurve;
 use crate::geometry::power_series::PowerSeries;
 use crate::geometry::vector;
@@ -184,10 +185,20 @@ impl Differentiable for ReferenceCurve {
         self.placed_values(match &self.form {
             ReferenceForm::Analytic(form) => form.derivatives(t, order),
             ReferenceForm::Formula(formula) => {
-                PowerSeries::derivatives(formula.series(t, order).each_ref())
+                let t = PowerSeries::parameter(t, order);
+                PowerSeries::derivatives(formula.series(&t).each_ref())
             }
             ReferenceForm::Points(points) => points.derivatives(t, order),
         })
+    }
+
+    fn enclosed(&self, t: &PowerSeries<Interval>) -> Option<[PowerSeries<Interval>; 3]> {
+        let coordinates = match &self.form {
+            ReferenceForm::Analytic(form) => form.enclosed(t)?,
+            ReferenceForm::Formula(formula) => formula.series(t),
+            ReferenceForm::Points(_) => return None,
+        };
+        Some(self.placement.enclosed(coordinates))
     }
 }
 
@@ -226,6 +237,94 @@ impl ParametricCurve for ReferenceCurve {
         for (value, found) in values.iter_mut().zip(found) {
             *value = found * factor;
             factor *= rate;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bounds of derivatives up to this order are checked.
+    const ORDER: usize = 6;
+
+    /// Check that bounds over intervals of t = t(s) hold the coefficients at every s, and are narrow at a place.
+    fn check(text: &str) {
+        let curve = ReferenceCurve::from_text(text).expect("a reference");
+        let [from, to] = curve.interval();
+        for (start, width) in [(0.0, 0.07), (0.31, 0.0), (0.4, 0.02), (0.9, 0.1)] {
+            let at = |s: f64| from + (to - from) * (start + width * s);
+            let rate = (to - from) * 0.1;
+            // t = t₀ + rate s + s²: as a way along two curves leads.
+            let series = |t: Interval| {
+                let numbers = [rate, 1.0].map(Interval::number);
+                PowerSeries::of_coefficients(&[&[t][..], &numbers].concat(), ORDER)
+            };
+            let over = curve.enclosed(&series(Interval::new(at(0.0), at(1.0))));
+            let over = over.expect("bounds");
+            for step in 0..=10 {
+                let t = at(f64::from(step) / 10.0);
+                let inner = PowerSeries::of_coefficients(&[t, rate, 1.0], ORDER);
+                let values = PowerSeries::reparametrised(&curve.derivatives(t, ORDER), &inner);
+                let here = curve.enclosed(&series(Interval::number(t)));
+                let here = here.expect("bounds");
+                let axes = PowerSeries::coordinates(&values);
+                for (axis, (over, here)) in axes.iter().zip(over.iter().zip(&here)) {
+                    let all = over.coefficients().iter().zip(here.coefficients());
+                    for (order, (value, (over, here))) in
+                        axis.coefficients().iter().zip(all).enumerate()
+                    {
+                        let room = 1e-10 * value.abs().max(1.0);
+                        for (bounds, most) in [(over, f64::INFINITY), (here, 10.0 * room)] {
+                            let [low, high] = bounds.bounds();
+                            assert!(
+                                low - room <= *value && *value <= high + room,
+                                "{text}, t = {t}, order {order}: {value} in {bounds:?}"
+                            );
+                            assert!(
+                                high - low <= most,
+                                "{text}, t = {t}, order {order}: {bounds:?}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn curves_of_every_kind_but_one_stay_within_their_bounds() {
+        for kind in crate::geometry::references::KINDS {
+            let curve = ReferenceCurve::from_text(kind.name).expect("a reference");
+            let t = PowerSeries::parameter(Interval::number(curve.interval()[0]), 1);
+            match kind.name {
+                "superspiral" => assert_eq!(curve.enclosed(&t), None),
+                name => check(name),
+            }
+        }
+        for text in [
+            "log-aesthetic:alpha=2,lambda=-0.4",
+            "log-aesthetic:alpha=0,lambda=0.7,from=-1,to=2",
+            "log-aesthetic:alpha=-0.5,lambda=0.2,from=-1,to=1",
+            "clothoid:a=3,from=-4,to=4",
+        ] {
+            check(text);
+        }
+    }
+
+    #[test]
+    fn formulas_of_every_function_stay_within_their_bounds() {
+        for y in [
+            "sin(3*t)*cos(t)+tan(t/2)",
+            "asin(t/3)+acos(t/3)*atan(t)",
+            "sinh(t)-cosh(2*t)+tanh(3*t)",
+            "exp(-t^2)*ln(t+2)+sqrt(t+1)",
+            "abs(t+1)+min(t,3)*max(t-9,sin(t))",
+            "hypot(t,2)+atan2(t+1,-3)+atan2(2,t)+atan2(-1-t,1)",
+            "(t+2)^-2.5+(t-5)^3+2^t+t^0+(t+1)/(t^2+1)",
+            "t*30deg+1e-3*t^7",
+        ] {
+            check(&format!("formula:x=t;y={y};z=-t;from=0;to=1.25"));
         }
     }
 }

@@ -6,6 +6,7 @@ use super::error::ReferenceError;
 use super::formula::Formula;
 use super::kind::{EVERYWHERE, ReferenceKind};
 use super::point_list::PointList;
+use crate::geometry::interval::Interval;
 use crate::geometry::power_series::PowerSeries;
 
 /// A curve by its formula, or points.
@@ -64,6 +65,11 @@ impl AnalyticForm {
             return vec![DVec3::NAN; order + 1];
         }
         PowerSeries::derivatives(self.kind.series(&self.values, t, order).each_ref())
+    }
+
+    /// Bound the coordinates for bounds of the series of t.
+    pub(super) fn enclosed(&self, t: &PowerSeries<Interval>) -> Option<[PowerSeries<Interval>; 3]> {
+        self.kind.enclosed(&self.values, t)
     }
 }
 

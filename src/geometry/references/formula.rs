@@ -1,7 +1,7 @@
 //! Curves by formulas of one's own.
 
 use super::error::{ReferenceError, ReferenceTextError};
-use crate::geometry::expressions::Expression;
+use crate::geometry::expressions::{Argument, Expression};
 use crate::geometry::power_series::PowerSeries;
 
 /// Formulas x(t), y(t) and, of a curve in space, z(t).
@@ -54,10 +54,10 @@ impl Formula {
         gaps.min_by(f64::total_cmp)
     }
 
-    /// Expand the coordinates about t.
-    pub(super) fn series(&self, t: f64, order: usize) -> [PowerSeries; 3] {
-        let of = |coordinate: &Coordinate| coordinate.expression.series(t, order);
-        let level = || PowerSeries::constant(0.0, order);
+    /// Expand the coordinates for the series of t.
+    pub(super) fn series<T: Argument>(&self, t: &PowerSeries<T>) -> [PowerSeries<T>; 3] {
+        let of = |coordinate: &Coordinate| coordinate.expression.series(t);
+        let level = || PowerSeries::constant(T::of(0.0), t.order());
         let z = self.z.as_ref().map_or_else(level, of);
         [of(&self.x), of(&self.y), z]
     }

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::kind::{Coordinates, EVERYWHERE, ReferenceKind};
+use crate::geometry::coefficient::Coefficient;
 use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
@@ -38,10 +39,7 @@ pub static CIRCLE: ReferenceKind = ReferenceKind {
     )],
     interval: |_| [0.0, TAU],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Planar(|values, t| {
-        let (sine, cosine) = t.sin_cos();
-        [cosine.times(values[0]), sine.times(values[0])]
-    }),
+    coordinates: Coordinates::Planar(circle, Some(circle)),
 };
 
 /// The ellipse.
@@ -65,10 +63,7 @@ pub static ELLIPSE: ReferenceKind = ReferenceKind {
     ],
     interval: |_| [0.0, TAU],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Planar(|values, t| {
-        let (sine, cosine) = t.sin_cos();
-        [cosine.times(values[0]), sine.times(values[1])]
-    }),
+    coordinates: Coordinates::Planar(ellipse, Some(ellipse)),
 };
 
 /// The parabola.
@@ -84,7 +79,7 @@ pub static PARABOLA: ReferenceKind = ReferenceKind {
     )],
     interval: |values| [-2.0 * values[0], 2.0 * values[0]],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Planar(|values, t| [t.clone(), (t * t).times(0.25 / values[0])]),
+    coordinates: Coordinates::Planar(parabola, Some(parabola)),
 };
 
 /// The catenary.
@@ -100,10 +95,7 @@ pub static CATENARY: ReferenceKind = ReferenceKind {
     )],
     interval: |values| [-2.0 * values[0], 2.0 * values[0]],
     domain: |values| [-MOST_CATENARY * values[0], MOST_CATENARY * values[0]],
-    coordinates: Coordinates::Planar(|values, t| {
-        let (_, cosine) = t.clone().times(1.0 / values[0]).sinh_cosh();
-        [t.clone(), cosine.times(values[0])]
-    }),
+    coordinates: Coordinates::Planar(catenary, Some(catenary)),
 };
 
 /// The involute of a circle.
@@ -119,11 +111,7 @@ pub static CIRCLE_INVOLUTE: ReferenceKind = ReferenceKind {
     )],
     interval: |_| [1.0, TAU],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Planar(|values, t| {
-        let (sine, cosine) = t.sin_cos();
-        let [x, y] = [&cosine + &(t * &sine), &sine - &(t * &cosine)];
-        [x.times(values[0]), y.times(values[0])]
-    }),
+    coordinates: Coordinates::Planar(circle_involute, Some(circle_involute)),
 };
 
 /// The logarithmic spiral.
@@ -134,9 +122,7 @@ pub static LOGARITHMIC_SPIRAL: ReferenceKind = ReferenceKind {
     parameters: &[POLE_DISTANCE, LOGARITHMIC_GROWTH],
     interval: |_| [0.0, TAU],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Planar(|values, t| {
-        polar(&t.clone().times(values[1]).exp().times(values[0]), t)
-    }),
+    coordinates: Coordinates::Planar(logarithmic_spiral, Some(logarithmic_spiral)),
 };
 
 /// The Archimedean spiral.
@@ -155,9 +141,7 @@ pub static ARCHIMEDEAN_SPIRAL: ReferenceKind = ReferenceKind {
     ],
     interval: |_| [0.0, 2.0 * TAU],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Planar(|values, t| {
-        polar(&t.clone().times(values[1]).plus(values[0]), t)
-    }),
+    coordinates: Coordinates::Planar(archimedean_spiral, Some(archimedean_spiral)),
 };
 
 /// The helix on a cylinder.
@@ -181,11 +165,7 @@ pub static HELIX: ReferenceKind = ReferenceKind {
     ],
     interval: |_| [0.0, 2.0 * TAU],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Spatial(|values, t| {
-        let (sine, cosine) = t.sin_cos();
-        let [x, y] = [cosine.times(values[0]), sine.times(values[0])];
-        [x, y, t.clone().times(values[1] / TAU)]
-    }),
+    coordinates: Coordinates::Spatial(helix, Some(helix)),
 };
 
 /// The cubic helix.
@@ -201,11 +181,7 @@ pub static CUBIC_HELIX: ReferenceKind = ReferenceKind {
     )],
     interval: |_| [-1.0, 1.0],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Spatial(|values, t| {
-        let square = t * t;
-        let cube = (&square * t).times(values[0] * 2.0 / 3.0);
-        [t.clone().times(values[0]), square.times(values[0]), cube]
-    }),
+    coordinates: Coordinates::Spatial(cubic_helix, Some(cubic_helix)),
 };
 
 /// The helix on a cone.
@@ -225,11 +201,7 @@ pub static CONICAL_HELIX: ReferenceKind = ReferenceKind {
     ],
     interval: |_| [0.0, 2.0 * TAU],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Spatial(|values, t| {
-        let radius = t.clone().times(values[1]).exp().times(values[0]);
-        let [x, y] = polar(&radius, t);
-        [x, y, radius.times(values[2])]
-    }),
+    coordinates: Coordinates::Spatial(conical_helix, Some(conical_helix)),
 };
 
 /// The conical spiral (paper, section 5).
@@ -245,14 +217,81 @@ pub static CONICAL_SPIRAL: ReferenceKind = ReferenceKind {
     )],
     interval: |_| [0.0, 15.5],
     domain: |_| EVERYWHERE,
-    coordinates: Coordinates::Spatial(|values, t| {
-        let [x, y] = polar(t, t);
-        [x, y, t.clone().times(values[0])]
-    }),
+    coordinates: Coordinates::Spatial(conical_spiral, Some(conical_spiral)),
 };
 
+fn circle<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
+    let (sine, cosine) = t.sin_cos();
+    [cosine.times(T::of(values[0])), sine.times(T::of(values[0]))]
+}
+
+fn ellipse<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
+    let (sine, cosine) = t.sin_cos();
+    [cosine.times(T::of(values[0])), sine.times(T::of(values[1]))]
+}
+
+fn parabola<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
+    [t.clone(), t.squared().times(T::of(0.25) / T::of(values[0]))]
+}
+
+fn catenary<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
+    let (_, cosine) = t.clone().times(T::of(1.0) / T::of(values[0])).sinh_cosh();
+    [t.clone(), cosine.times(T::of(values[0]))]
+}
+
+fn circle_involute<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
+    let (sine, cosine) = t.sin_cos();
+    let [x, y] = [&cosine + &(t * &sine), &sine - &(t * &cosine)];
+    [x.times(T::of(values[0])), y.times(T::of(values[0]))]
+}
+
+fn logarithmic_spiral<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
+    polar(
+        &t.clone()
+            .times(T::of(values[1]))
+            .exp()
+            .times(T::of(values[0])),
+        t,
+    )
+}
+
+fn archimedean_spiral<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
+    polar(&t.clone().times(T::of(values[1])).plus(T::of(values[0])), t)
+}
+
+fn helix<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 3] {
+    let (sine, cosine) = t.sin_cos();
+    let [x, y] = [cosine.times(T::of(values[0])), sine.times(T::of(values[0]))];
+    [x, y, t.clone().times(T::of(values[1]) / T::of(TAU))]
+}
+
+fn cubic_helix<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 3] {
+    let square = t.squared();
+    let cube = (&square * t).times(T::of(values[0]) * T::of(2.0) / T::of(3.0));
+    [
+        t.clone().times(T::of(values[0])),
+        square.times(T::of(values[0])),
+        cube,
+    ]
+}
+
+fn conical_helix<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 3] {
+    let radius = t
+        .clone()
+        .times(T::of(values[1]))
+        .exp()
+        .times(T::of(values[0]));
+    let [x, y] = polar(&radius, t);
+    [x, y, radius.times(T::of(values[2]))]
+}
+
+fn conical_spiral<T: Coefficient>(values: &[f64], t: &PowerSeries<T>) -> [PowerSeries<T>; 3] {
+    let [x, y] = polar(t, t);
+    [x, y, t.clone().times(T::of(values[0]))]
+}
+
 /// The point at a radius and an angle.
-fn polar(radius: &PowerSeries, angle: &PowerSeries) -> [PowerSeries; 2] {
+fn polar<T: Coefficient>(radius: &PowerSeries<T>, angle: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
     let (sine, cosine) = angle.sin_cos();
     [radius * &cosine, radius * &sine]
 }

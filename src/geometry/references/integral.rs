@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 
+use crate::geometry::coefficient::Coefficient;
 use crate::geometry::power_series::PowerSeries;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
 
@@ -26,13 +27,26 @@ thread_local! {
 /// A curve among all: its kind and the values of its parameters.
 pub(super) type Identity<'a> = (&'static str, &'a [f64]);
 
-/// Integrate two functions of a curve from 0 to t. `angle` is how far the direction of both together turns
-/// from 0 on; it rises or falls all along on either side of 0.
-pub(super) fn integrated(
-    (kind, values): Identity<'_>,
-    t: f64,
+/// Integrate two functions of a curve, which are nowhere above 1 or below −1, from 0 to t. `angle` is how far the
+/// direction of both together turns from 0 on; it rises or falls all along on either side of 0.
+pub(super) fn integrated<T: Coefficient>(
+    identity: Identity<'_>,
+    t: T,
     angle: impl Fn(f64) -> f64,
     functions: impl Fn(f64) -> [f64; 2],
+) -> [T; 2] {
+    t.moving(|t| {
+        // The rounding of each span, and once more of their sum.
+        let error = 2.0 * ROUNDING * (1.0 + angle(t).abs()) * t.abs();
+        (integrated_numbers(identity, t, &angle, &functions), error)
+    })
+}
+
+fn integrated_numbers(
+    (kind, values): Identity<'_>,
+    t: f64,
+    angle: &impl Fn(f64) -> f64,
+    functions: &impl Fn(f64) -> [f64; 2],
 ) -> [f64; 2] {
     if t == 0.0 || !angle(t).is_finite() {
         return [0.0 * angle(t); 2];
@@ -40,8 +54,8 @@ pub(super) fn integrated(
     LAST.with_borrow_mut(|last| {
         let same = |kept: &Integrals| kept.kind == kind && kept.values == values;
         let kept = last.take().filter(same);
-        let kept = last.insert(kept.unwrap_or_else(|| Integrals::new((kind, values), &angle)));
-        kept.until(t, &angle, &functions)
+        let kept = last.insert(kept.unwrap_or_else(|| Integrals::new((kind, values), angle)));
+        kept.until(t, angle, functions)
     })
 }
 
@@ -128,12 +142,12 @@ fn span(from: f64, sign: f64, angle: &impl Fn(f64) -> f64) -> f64 {
 
 /// Expand a planar curve of speed 1 that starts at the origin along the x axis: C′ = (cos θ, sin θ),
 /// θ(0) = 0. `t` is the series of its parameter, `expansion` that of θ, to the same order or one less.
-pub(super) fn unit_speed(
+pub(super) fn unit_speed<T: Coefficient>(
     identity: Identity<'_>,
-    t: &PowerSeries,
+    t: &PowerSeries<T>,
     angle: impl Fn(f64) -> f64,
-    expansion: &PowerSeries,
-) -> [PowerSeries; 2] {
+    expansion: &PowerSeries<T>,
+) -> [PowerSeries<T>; 2] {
     let direction = |s: f64| {
         let (sine, cosine) = angle(s).sin_cos();
         [cosine, sine]

@@ -9,6 +9,7 @@
 
 use super::integral::{MOST_TURNING, unit_speed};
 use super::kind::{Coordinates, ReferenceKind};
+use crate::geometry::coefficient::Coefficient;
 use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
@@ -33,7 +34,7 @@ pub static KIND: ReferenceKind = ReferenceKind {
     ],
     interval,
     domain,
-    coordinates: Coordinates::Planar(coordinates),
+    coordinates: Coordinates::Planar(coordinates, Some(coordinates)),
 };
 
 /// From s = 0 to 1, or less if the curve ends before: nine tenths of the way there.
@@ -61,18 +62,23 @@ fn domain(values: &[f64]) -> [f64; 2] {
     [end(-MOST_TURNING), end(MOST_TURNING)]
 }
 
-fn coordinates(values: &[f64], s: &PowerSeries) -> [PowerSeries; 2] {
+fn coordinates<T: Coefficient>(values: &[f64], s: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
     let (at, order) = (s.value(), s.order());
     let [alpha, lambda] = [values[0], values[1]];
     let direction = |s: f64| angle(alpha, lambda, s);
     // With B = 1 + Λαs, κ′ B = −Λ κ.
-    let base = 1.0 + lambda * alpha * at;
-    let start = (-lambda * at * relative_logarithm(lambda * alpha * at)).exp();
+    let base = T::of(1.0) + T::of(lambda) * T::of(alpha) * at;
+    let growth = |s: f64| lambda * s * relative_logarithm(lambda * alpha * s);
+    let falling = match lambda < 0.0 {
+        true => at.rising(|s| -growth(s)),
+        false => -at.rising(growth),
+    };
+    let start = falling.rising(f64::exp);
     let curvature = PowerSeries::by_recurrence(start, order, |curvature, k| {
-        let k = k as f64;
-        -lambda * (1.0 + alpha * k) * curvature[k as usize] / ((k + 1.0) * base)
+        let share = T::of(1.0) + T::of(alpha) * T::of(k as f64);
+        T::of(-lambda) * share * curvature[k] / (T::of(k as f64 + 1.0) * base)
     });
-    let expansion = curvature.antiderivative(direction(at), order);
+    let expansion = curvature.antiderivative(at.rising(direction), order);
     unit_speed((KIND.name, values), s, direction, &expansion)
 }
 

@@ -2,6 +2,7 @@
 
 use super::integral::{MOST_TURNING, integrated};
 use super::kind::{Coordinates, ReferenceKind};
+use crate::geometry::coefficient::Coefficient;
 use crate::geometry::parameters::{Number, Parameter};
 use crate::geometry::power_series::PowerSeries;
 
@@ -21,11 +22,11 @@ pub static KIND: ReferenceKind = ReferenceKind {
     )],
     interval: |_| [0.5, 10.0],
     domain: |_| [1e-30, MOST_TURNING],
-    coordinates: Coordinates::Planar(coordinates),
+    coordinates: Coordinates::Planar(coordinates, Some(coordinates)),
 };
 
 /// Ci t = γ + ln t + ∫ (cos u − 1)/u du, Si t = ∫ sin u/u du, from 0 to t.
-fn coordinates(values: &[f64], angle: &PowerSeries) -> [PowerSeries; 2] {
+fn coordinates<T: Coefficient>(values: &[f64], angle: &PowerSeries<T>) -> [PowerSeries<T>; 2] {
     let (t, order) = (angle.value(), angle.order());
     let relative = |u: f64| {
         let half = (0.5 * u).sin();
@@ -35,7 +36,7 @@ fn coordinates(values: &[f64], angle: &PowerSeries) -> [PowerSeries; 2] {
     let [cosine, sine] = integrated((KIND.name, &[]), t, |u| u, relative);
     let (sines, cosines) = angle.sin_cos();
     let (rise, run) = (&sines / angle, &cosines / angle);
-    let x = run.antiderivative(EULER + t.ln() + cosine, order);
+    let x = run.antiderivative(T::of(EULER) + t.ln() + cosine, order);
     let y = rise.antiderivative(sine, order);
-    [x.times(values[0]), y.times(values[0])]
+    [x.times(T::of(values[0])), y.times(T::of(values[0]))]
 }

@@ -1,9 +1,14 @@
 //! Placement of a reference: a similarity in space.
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use super::error::ReferenceError;
+use crate::geometry::interval::Interval;
 use crate::geometry::parameters::SIZES;
+use crate::geometry::power_series::PowerSeries;
+
+/// The largest error of the entries of a rotation matrix, which are sums of products of numbers up to 1.
+const ROTATION_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Similarity: points are rotated about the origin, scaled, and then translated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,6 +100,27 @@ impl Placement {
     /// Place a point.
     pub fn point(&self, point: DVec3) -> DVec3 {
         self.vector(point) + self.translation
+    }
+
+    /// Bound the placed coordinates by those before.
+    pub(super) fn enclosed(
+        &self,
+        coordinates: [PowerSeries<Interval>; 3],
+    ) -> [PowerSeries<Interval>; 3] {
+        if *self == Self::default() {
+            return coordinates;
+        }
+        let axes = DMat3::from_quat(self.rotation).transpose();
+        [0, 1, 2].map(|axis| {
+            let row = axes.col(axis).to_array();
+            let entries = row.map(|it| Interval::number(it).widened(ROTATION_ROUNDING));
+            let scale = Interval::number(self.scale);
+            let [x, y, z] = [0, 1, 2].map(|from| {
+                let along: &PowerSeries<Interval> = &coordinates[from];
+                along.clone().times(entries[from] * scale)
+            });
+            (&(&x + &y) + &z).plus(Interval::number(self.translation[axis]))
+        })
     }
 
     /// Place a derivative, which does not depend on the translation.

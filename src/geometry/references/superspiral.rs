@@ -69,7 +69,7 @@ pub static KIND: ReferenceKind = ReferenceKind {
     ],
     interval: |_| [0.0, TAU],
     domain: |_| DOMAIN,
-    coordinates: Coordinates::Planar(coordinates),
+    coordinates: Coordinates::Planar(coordinates, None),
 };
 
 thread_local! {
@@ -128,7 +128,11 @@ impl Spiral {
             Some(piece) => (piece.point(psi), Some(&piece.expansion)),
             None => ([0.0; 2], None),
         };
-        let expansion = radius.expansion(psi, order, SUMMED, last);
+        let Some(below) = order.checked_sub(1) else {
+            return point.map(|coordinate| PowerSeries::constant(coordinate, 0));
+        };
+        // The point is known, and so one derivative less is needed.
+        let expansion = radius.expansion(psi, below, SUMMED, last);
         let [run, rise] = expansion.directed();
         [
             run.antiderivative(point[0], order),
