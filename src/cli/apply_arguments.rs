@@ -27,6 +27,7 @@ const CURVE: &str = "curve";
 const WITH: &str = "with";
 const FROM_FORMAT: &str = "from-format";
 const COLUMNS: &str = "columns";
+const WEIGHTS: &str = "weights";
 const TO_FORMAT: &str = "to-format";
 const ASSUME_UNIT: &str = "assume-unit";
 const BEST: &str = "best";
@@ -148,6 +149,14 @@ impl Given {
             Some(_) => Files::default(),
             None => Files::of(operation.inputs, paths(matches))?,
         };
+        let columns: Option<ColumnChoice> = matches.try_get_one(COLUMNS).ok().flatten().cloned();
+        let columns = match matches.try_get_one::<String>(WEIGHTS).ok().flatten() {
+            Some(column) => Some(
+                (columns.unwrap_or_default().with_weights(column))
+                    .map_err(|problem| format!("--{WEIGHTS}: {problem}"))?,
+            ),
+            None => columns,
+        };
         let text = input.as_deref().and_then(Path::to_str);
         let text = text.filter(|text| operation.inputs == Inputs::OneOrNone && is_reference(text));
         if let Some(text) = text {
@@ -166,7 +175,7 @@ impl Given {
             input,
             second,
             from_format: format(FROM_FORMAT),
-            columns: matches.try_get_one(COLUMNS).ok().flatten().cloned(),
+            columns,
             out,
             many,
             to_format: format(TO_FORMAT),
@@ -344,6 +353,10 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         ));
         let choice = option(COLUMNS).value_name("COLUMNS").value_parser(columns);
         command = command.arg(choice.help("The columns of x, y and, in space, z in a table of points, by numbers from 1 or by names"));
+        if operation.inputs == Inputs::Points {
+            let weights = option(WEIGHTS).value_name("COLUMN");
+            command = command.arg(weights.help("The column of a table that tells how much each point counts, by its number or name"));
+        }
         let unit = option(ASSUME_UNIT).value_name("UNIT");
         let unit = unit.value_parser(unit_parser());
         command = command.arg(unit.help("The unit of a file that states none"));

@@ -48,6 +48,14 @@ impl Reference {
         Some(points.map(|point| placement.point(*point)).collect())
     }
 
+    /// How much each of its points counts, if they differ.
+    pub fn weights(&self) -> Option<&[f64]> {
+        match self.curve.form() {
+            ReferenceForm::Points(list) => list.weights(),
+            _ => None,
+        }
+    }
+
     /// Refuse if the reference cannot be changed: it is hidden or locked.
     ///
     /// # Errors

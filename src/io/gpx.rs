@@ -130,7 +130,11 @@ fn row(point: Node) -> Result<Row, ReadError> {
     let latitude = degrees("lat", "latitude", 90.0)?;
     let longitude = degrees("lon", "longitude", 180.0)?;
     let point = position(latitude.to_radians(), longitude.to_radians());
-    Ok(Row { line, point })
+    Ok(Row {
+        line,
+        point,
+        weight: None,
+    })
 }
 
 /// The point of the ellipsoid at a latitude and a longitude, in metres from the centre of the earth.

@@ -45,6 +45,8 @@ pub enum Loss {
     Targets,
     /// A reference as a whole.
     Reference,
+    /// How much each point of a reference counts.
+    PointWeights,
     /// A curve as a whole.
     Curve,
     /// That an end is kept matched to another curve.
@@ -126,6 +128,14 @@ impl LossReport {
         self.losses.push((reference.name.clone(), Loss::Reference));
     }
 
+    /// Add what every format but Batten's own loses of a list of points.
+    pub fn add_point_weights(&mut self, reference: &Reference) {
+        if reference.weights().is_some() {
+            self.losses
+                .push((reference.name.clone(), Loss::PointWeights));
+        }
+    }
+
     /// Add the matches of a document's curves, of those that are written: every format but Batten's own
     /// loses them.
     pub fn add_matches(&mut self, document: &Document, is_written: impl Fn(&Curve) -> bool) {
@@ -178,6 +188,7 @@ impl fmt::Display for LossReport {
                     format!("the {kind} polygon is drawn without its weights")
                 }
                 Loss::Reference => lost("references aren't"),
+                Loss::PointWeights => lost("weights of points aren't"),
                 Loss::Curve => lost("curves aren't"),
                 Loss::Colour => lost("the colour isn't"),
                 Loss::Hidden => lost("visibility isn't"),

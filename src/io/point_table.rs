@@ -45,7 +45,10 @@ fn write(
     }
     for (_, reference) in document.references() {
         match reference.points() {
-            Some(points) => lists.push(list(reference, &points)),
+            Some(points) => {
+                lists.push(list(reference, &points));
+                losses.add_point_weights(reference);
+            }
             None => losses.add_reference(reference),
         }
     }

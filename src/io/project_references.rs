@@ -35,6 +35,9 @@ pub(super) struct ProjectReference {
     formula: Option<FileFormula>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     points: Option<Vec<Coordinates>>,
+    /// How much each point counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    weights: Option<Vec<f64>>,
     /// The interval of the parameter t.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     interval: Option<[f64; 2]>,
@@ -90,6 +93,7 @@ impl ProjectReference {
                 let points = list.points().iter();
                 let points = points.map(|point| Coordinates::of(*point, planar));
                 written.points = Some(points.collect());
+                written.weights = list.weights().map(<[f64]>::to_vec);
             }
         }
         let placement = curve.placement();
@@ -127,7 +131,11 @@ impl ProjectReference {
                 ReferenceForm::Formula(Formula::new(&x, &y, z.as_deref())?)
             }
             (None, None, Some(points)) => {
-                ReferenceForm::Points(PointList::new(project_values::points("point", points)?)?)
+                let list = PointList::new(project_values::points("point", points)?)?;
+                ReferenceForm::Points(match self.weights {
+                    Some(weights) => list.with_weights(weights)?,
+                    None => list,
+                })
             }
             _ => return Err(Problem::NoReference),
         };

@@ -270,7 +270,10 @@ fn write(
     }
     for (_, reference) in document.references() {
         match reference.points() {
-            Some(points) => blocks.push(points_block(reference, &points)),
+            Some(points) => {
+                blocks.push(points_block(reference, &points));
+                losses.add_point_weights(reference);
+            }
             None => losses.add_reference(reference),
         }
     }

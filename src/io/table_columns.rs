@@ -12,15 +12,20 @@ use crate::geometry::expressions::LengthUnit;
 /// The columns that a table of vertices can have, in the order in which they are written.
 pub(super) const COLUMNS: [&str; 4] = ["x", "y", "z", "weight"];
 
-/// The column of weights, which points do not have.
+/// The column of weights, which points have only where it is chosen.
 pub(super) const WEIGHT: usize = 3;
 
 /// Words behind x or y that are no unit: of a chord, or of nothing.
 const NO_UNIT: [&str; 5] = ["c", "chord", "-", "1", ""];
 
-/// The columns that hold x, y and, in space, z: by their numbers, counted from 1, or by their names.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ColumnChoice(Vec<Pick>);
+/// The columns that hold x, y and, in space, z, and that of the points' weights: by their numbers, counted from 1,
+/// or by their names.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ColumnChoice {
+    /// None where the table tells.
+    coordinates: Vec<Pick>,
+    weight: Option<Pick>,
+}
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Pick {
@@ -39,15 +44,34 @@ impl ColumnChoice {
             *pick != Pick::Number(0) && !picks[..place].contains(pick)
         };
         let fits = (2..=3).contains(&picks.len()) && picks.iter().enumerate().all(is_known);
-        fits.then_some(Self(picks))
+        fits.then_some(Self {
+            coordinates: picks,
+            weight: None,
+        })
+    }
+
+    /// Choose the column of weights too, by its number, counted from 1, or its name.
+    ///
+    /// # Errors
+    /// What a column is.
+    pub fn with_weights(self, column: &str) -> Result<Self, &'static str> {
+        let weight = Pick::of(column).filter(|pick| *pick != Pick::Number(0));
+        let weight = Some(weight.ok_or("a column is needed, by its name or number from 1")?);
+        Ok(Self { weight, ..self })
+    }
+
+    /// Whether the columns of coordinates are chosen.
+    pub(super) fn has_coordinates(&self) -> bool {
+        !self.coordinates.is_empty()
     }
 
     /// Whether a column is chosen by its name.
     pub(super) fn has_names(&self) -> bool {
-        self.0.iter().any(|pick| matches!(pick, Pick::Name(_)))
+        let mut picks = self.coordinates.iter().chain(&self.weight);
+        picks.any(|pick| matches!(pick, Pick::Name(_)))
     }
 
-    /// Find the columns, counted from 0, in a table with these names and this number of columns.
+    /// Find the columns of coordinates, counted from 0, in a table with these names and this number of columns.
     ///
     /// # Errors
     /// [`Problem::NoSuchColumn`].
@@ -56,20 +80,45 @@ impl ColumnChoice {
         names: Option<&ColumnNames>,
         count: usize,
     ) -> Result<Vec<usize>, Problem> {
-        let place = |pick: &Pick| {
-            let found = match pick {
-                Pick::Number(number) => number.checked_sub(1).filter(|place| *place < count),
-                Pick::Name(name) => names.and_then(|names| names.place_of(name)),
-            };
-            found.ok_or_else(|| Problem::NoSuchColumn {
-                column: match pick {
-                    Pick::Number(number) => number.to_string(),
-                    Pick::Name(name) => quoted(name),
-                },
-                known: columns(names, 0..count),
-            })
+        let places = self.coordinates.iter();
+        places.map(|pick| pick.place(names, count)).collect()
+    }
+
+    /// Find the column of weights likewise.
+    ///
+    /// # Errors
+    /// [`Problem::NoSuchColumn`].
+    pub(super) fn weight(
+        &self,
+        names: Option<&ColumnNames>,
+        count: usize,
+    ) -> Result<Option<usize>, Problem> {
+        let weight = self.weight.as_ref();
+        weight.map(|pick| pick.place(names, count)).transpose()
+    }
+}
+
+impl Pick {
+    fn of(text: &str) -> Option<Self> {
+        match (text.trim().parse(), text.trim()) {
+            (_, "") => None,
+            (Ok(number), _) => Some(Self::Number(number)),
+            (Err(_), name) => Some(Self::Name(name.to_owned())),
+        }
+    }
+
+    fn place(&self, names: Option<&ColumnNames>, count: usize) -> Result<usize, Problem> {
+        let found = match self {
+            Self::Number(number) => number.checked_sub(1).filter(|place| *place < count),
+            Self::Name(name) => names.and_then(|names| names.place_of(name)),
         };
-        self.0.iter().map(place).collect()
+        found.ok_or_else(|| Problem::NoSuchColumn {
+            column: match self {
+                Self::Number(number) => number.to_string(),
+                Self::Name(name) => quoted(name),
+            },
+            known: columns(names, 0..count),
+        })
     }
 }
 
@@ -77,12 +126,7 @@ impl FromStr for ColumnChoice {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let pick = |text: &str| match (text.trim().parse(), text.trim()) {
-            (_, "") => None,
-            (Ok(number), _) => Some(Pick::Number(number)),
-            (Err(_), name) => Some(Pick::Name(name.to_owned())),
-        };
-        let picks: Option<Vec<Pick>> = text.split(',').map(pick).collect();
+        let picks: Option<Vec<Pick>> = text.split(',').map(Pick::of).collect();
         let choice = picks.and_then(Self::of);
         choice.ok_or(
             "2 or 3 different columns are needed, by their names or numbers from 1, as in 2,3",

@@ -9,7 +9,7 @@ use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer};
 use super::decimals::{Decimals, is_number};
 use super::error::{Place, Problem, ReadError};
 use super::reading::{Reading, Remark, Remarks};
-use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, columns};
+use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, WEIGHT, columns};
 use super::table_lines::{Fields, LineContent, TableLine};
 use crate::document::Reference;
 use crate::geometry::expressions::LengthUnit;
@@ -47,6 +47,8 @@ pub(super) struct Row {
     pub(super) line: usize,
     /// The point.
     pub(super) point: DVec3,
+    /// How much it counts, if a column tells.
+    pub(super) weight: Option<f64>,
 }
 
 /// Rows without a blank line between them, with the text above them.
@@ -66,6 +68,8 @@ struct Layout {
     names: Option<usize>,
     /// The columns of x, y and, in space, z, counted from 0.
     places: Vec<usize>,
+    /// The column of weights.
+    weight: Option<usize>,
 }
 
 /// What a line of text is in a list of points.
@@ -196,20 +200,22 @@ impl<'a> PointReader<'a> {
         let first = rows.first().map_or(section.line, |(line, _)| *line);
         let names = self.names(section, first, count);
         let place = Place::line(names.as_ref().map_or(first, |(line, _)| *line));
-        let places = match (self.choice, names.as_ref().map(|(_, names)| names)) {
-            (Some(choice), names) => {
-                let most = count.max(names.map_or(0, ColumnNames::count));
-                choice.places(names, most).map_err(|it| place.problem(it))?
+        let named = names.as_ref().map(|(_, names)| names);
+        let most = count.max(named.map_or(0, ColumnNames::count));
+        let weight = self.choice.map(|choice| choice.weight(named, most));
+        let weight = weight.transpose().map_err(|it| place.clone().problem(it))?;
+        let chosen = self.choice.filter(|choice| choice.has_coordinates());
+        let places = match (chosen, named) {
+            (Some(choice), _) => choice.places(named, most),
+            (None, Some(names)) if self.choice.is_none() && names.has_weights() => {
+                Err(Problem::NoTableHeader)
             }
-            (None, Some(names)) if names.has_weights() => {
-                return Err(place.problem(Problem::NoTableHeader));
-            }
-            (None, names) => {
-                let places = names.and_then(ColumnNames::coordinates);
-                let places = places.map_or_else(|| self.numeric(&rows, count, names), Ok);
-                places.map_err(|it| place.problem(it))?
+            (None, _) => {
+                let places = named.and_then(ColumnNames::coordinates);
+                places.map_or_else(|| self.numeric(&rows, count, named, weight.flatten()), Ok)
             }
         };
+        let places = places.map_err(|it| place.problem(it))?;
         if let Some((line, names)) = &names {
             self.take_unit(*line, names, &places)?;
         }
@@ -218,6 +224,7 @@ impl<'a> PointReader<'a> {
             named: names.as_ref().map_or(0, |(_, names)| names.count()),
             names: names.map(|(line, _)| line),
             places,
+            weight: weight.flatten(),
         }))
     }
 
@@ -243,7 +250,7 @@ impl<'a> PointReader<'a> {
         are_names.then_some((line, names))
     }
 
-    /// Take the columns of numbers for the coordinates.
+    /// Take the columns of numbers for the coordinates, but that of weights.
     ///
     /// # Errors
     /// [`Problem::AmbiguousColumns`] if there may be others.
@@ -252,6 +259,7 @@ impl<'a> PointReader<'a> {
         rows: &[(usize, &Fields)],
         count: usize,
         names: Option<&ColumnNames>,
+        weight: Option<usize>,
     ) -> Result<Vec<usize>, Problem> {
         let are_mostly = |place: &usize| {
             let numbers = rows
@@ -259,7 +267,8 @@ impl<'a> PointReader<'a> {
                 .filter(|(_, fields)| is_number(&fields.values[*place]));
             2 * numbers.count() > rows.len()
         };
-        let places: Vec<usize> = (0..count).filter(are_mostly).collect();
+        let others = (0..count).filter(|place| Some(*place) != weight);
+        let places: Vec<usize> = others.filter(are_mostly).collect();
         match (places.len(), names) {
             (2, Some(_)) => {
                 let columns = columns(names, places.iter().copied());
@@ -399,11 +408,17 @@ impl<'a> PointReader<'a> {
             is_repeated
         });
         let points: Vec<DVec3> = rows.iter().map(|row| row.point).collect();
-        let list = PointList::new(points);
+        let weights: Option<Vec<f64>> = rows.iter().map(|row| row.weight).collect();
+        let list = PointList::new(points).and_then(|list| match weights {
+            Some(weights) => list.with_weights(weights),
+            None => Ok(list),
+        });
         let curve = list.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
         let curve = curve.map_err(|error| {
             let line = match error {
-                ReferenceError::BadPoint { index, .. } => rows.get(index).map(|row| row.line),
+                ReferenceError::BadPoint { index } | ReferenceError::BadWeight { index } => {
+                    rows.get(index).map(|row| row.line)
+                }
                 _ => None,
             };
             let place = Place {
@@ -435,19 +450,25 @@ impl Layout {
             return Ok(Found::Text);
         }
         let text = |place: &usize| fields.values.get(*place).map_or("", |text| text.as_ref());
-        let texts: Vec<&str> = self.places.iter().map(text).collect();
+        let texts: Vec<&str> = self.places.iter().chain(&self.weight).map(text).collect();
         if let Some(text) = texts.iter().find(|text| is_too_large(text)) {
             return Ok(Found::TooLarge((*text).to_owned()));
         }
         if !texts.iter().all(|text| is_number(text)) {
             return Ok(Found::Text);
         }
+        let (coordinates, weight) = texts.split_at(self.places.len());
         let mut point = [0.0; 3];
-        for ((value, text), column) in point.iter_mut().zip(texts).zip(COLUMNS) {
+        for ((value, text), column) in point.iter_mut().zip(coordinates).zip(COLUMNS) {
             *value = decimals.number(text, column, line)?;
         }
-        let point = DVec3::from_array(point);
-        Ok(Found::Row(Row { line, point }))
+        let weight = weight.first().copied();
+        let weight = weight.map(|text| decimals.number(text, COLUMNS[WEIGHT], line));
+        Ok(Found::Row(Row {
+            line,
+            point: DVec3::from_array(point),
+            weight: weight.transpose()?,
+        }))
     }
 }
 

@@ -14,11 +14,11 @@ use super::targets::{SHARE_OF_SIZE, place_of};
 use super::time_limit::{TIME_IS_UP, TIME_LIMIT, limited};
 use super::values::Values;
 use crate::document::{Curve, Edit};
-use crate::geometry::approximation::{FitRequest, fit_points};
+use crate::geometry::approximation::{self, FitRequest, fit_points};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::counts::CountRequest;
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::fitting::{Extrema, FitError, Fitted, PlaneFit, corners, fit_plane};
+use crate::geometry::fitting::{Extrema, FitError, Fitted, Mirror, PlaneFit, corners, fit_plane};
 use crate::geometry::parameters::{OutOfRange, Quantity};
 use crate::geometry::{End, MAX_DEGREE, Progress, counted, significant};
 
@@ -63,7 +63,7 @@ const EXTREMA: Parameter = Parameter {
 const INFLECTIONS: Parameter = Parameter {
     name: "inflections",
     label: "Inflections",
-    help: "How many inflections a planar curve has, proved",
+    help: "How many inflections a planar curve has, in space zeros of the torsion, proved",
     kind: Kind::optional_count(usize::MAX, false, |_| "any number"),
 };
 
@@ -110,6 +110,20 @@ const OUTLIERS: Parameter = Parameter {
     },
 };
 
+const SYMMETRIC: Parameter = Parameter {
+    name: "symmetric",
+    label: "Symmetric",
+    help: "The axis in which an open curve is its own mirror image, bit for bit",
+    kind: Kind::Choice {
+        options: &[
+            Choice::new("no", "No"),
+            Choice::new("x", "In the x axis"),
+            Choice::new("y", "In the y axis"),
+        ],
+        default: 0,
+    },
+};
+
 const SPLIT: Parameter = Parameter {
     name: "split-corners",
     label: "Split corners",
@@ -149,18 +163,15 @@ const END_CURVATURE: Parameter = Parameter {
 };
 
 /// What counts in the plane alone.
-const IN_PLANE: [&Parameter; 11] = [
-    &MOST,
-    &INFLECTIONS,
+const IN_PLANE: [&Parameter; 8] = [
     &ENDS,
     &PERIODIC,
-    &OUTLIERS,
+    &SYMMETRIC,
     &SPLIT,
     &START_DIRECTION,
     &START_CURVATURE,
     &END_DIRECTION,
     &END_CURVATURE,
-    &TIME_LIMIT,
 ];
 
 /// The operation: its description, and how it is run.
@@ -182,6 +193,7 @@ pub static OPERATION: Operation = Operation {
         END_DIRECTION,
         END_CURVATURE,
         PERIODIC,
+        SYMMETRIC,
         SPLIT,
         OUTLIERS,
         TIME_LIMIT,
@@ -197,7 +209,10 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     }
     let points = input.points().iter().map(|point| point.truncate());
     let points: Vec<DVec2> = points.collect();
-    let asked = asked(&points, values)?;
+    let asked = PlaneFit {
+        weights: input.weights().map(<[f64]>::to_vec),
+        ..asked(points.len(), values)?
+    };
     let progress = limited(progress, values);
     let corners = match asked.periodic {
         true => Vec::new(),
@@ -230,7 +245,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
 
 /// Require numbers of features, if there are any asked for.
 fn features(extrema: Option<usize>, inflections: Option<usize>) -> Option<Requirement> {
-    extrema.or(inflections).map(|_| Requirement::Features {
+    let asked = extrema.or(inflections);
+    asked.map(|_| Requirement::Features {
         stretch: None,
         request: CountRequest::exactly([inflections, extrema, None]),
     })
@@ -265,13 +281,17 @@ impl Piece {
             directions: [0, 1].map(|end| asked.directions[end].filter(|_| outer[end])),
             curvatures: [0, 1].map(|end| asked.curvatures[end].filter(|_| outer[end])),
             outliers: asked.outliers.as_ref().map(own),
+            weights: asked.weights.as_ref().map(|weights| {
+                let own = weights
+                    .iter()
+                    .skip(self.first)
+                    .take(self.last + 1 - self.first);
+                own.copied().collect()
+            }),
             ..asked.clone()
         };
         let found = fit_plane(&points[self.first..=self.last], &asked, progress);
-        let mut found = found.map_err(|error| match error {
-            FitError::Cancelled => OperationError::Cancelled,
-            error => error.into(),
-        })?;
+        let mut found = found.map_err(told)?;
         for (outlier, _) in &mut found.outliers {
             *outlier += self.first;
         }
@@ -283,11 +303,7 @@ impl Piece {
 
     /// What the curve must hold: its features, its ends and the tolerance.
     fn requirements(&self, points: &[DVec2], asked: &PlaneFit, found: &Fitted) -> Vec<Requirement> {
-        let extrema = match asked.extrema {
-            Extrema::Exactly(extrema) => Some(extrema),
-            Extrema::Fewest => None,
-        };
-        let features = features(extrema, asked.inflections);
+        let features = features(asked.extrema.number(), asked.inflections);
         let polygon = &found.polygon;
         let counts = |index: &usize| found.outliers.iter().all(|(outlier, _)| outlier != index);
         let mut counting = (self.first..=self.last).filter(counts);
@@ -325,8 +341,16 @@ impl Piece {
     }
 }
 
+/// Tell a cancellation from other errors.
+fn told(error: FitError) -> OperationError {
+    match error {
+        FitError::Cancelled => OperationError::Cancelled,
+        error => error.into(),
+    }
+}
+
 /// What is asked for in the plane.
-fn asked(points: &[DVec2], values: &Values) -> Result<PlaneFit, OperationError> {
+fn asked(points: usize, values: &Values) -> Result<PlaneFit, OperationError> {
     let direction = |parameter: &Parameter| {
         let numbers = values.list(parameter);
         let [x, y] = *numbers else { return Ok(None) };
@@ -341,11 +365,11 @@ fn asked(points: &[DVec2], values: &Values) -> Result<PlaneFit, OperationError> 
     };
     let tolerance = given(values, &TOLERANCE);
     let left_out = values.list(&OUTLIERS);
-    if let Some(beyond) = left_out.iter().find(|it| **it >= points.len() as f64) {
+    if let Some(beyond) = left_out.iter().find(|it| **it >= points as f64) {
         return Err(OutOfRange {
             label: OUTLIERS.label,
             value: beyond.to_string().into(),
-            needed: format!("below {}, the number of points,", points.len()).into(),
+            needed: format!("below {points}, the number of points,").into(),
         }
         .into());
     }
@@ -359,7 +383,7 @@ fn asked(points: &[DVec2], values: &Values) -> Result<PlaneFit, OperationError> 
     Ok(PlaneFit {
         degree: values.whole(&DEGREE),
         periodic: values.switch(&PERIODIC),
-        count: vertices(points.len(), values)?,
+        count: vertices(points, values)?,
         most: given_count(values, &MOST),
         extrema: given_count(values, &EXTREMA).map_or(Extrema::Fewest, Extrema::Exactly),
         inflections: given_count(values, &INFLECTIONS),
@@ -371,7 +395,36 @@ fn asked(points: &[DVec2], values: &Values) -> Result<PlaneFit, OperationError> 
             given(values, &END_CURVATURE),
         ],
         outliers,
+        mirror: mirror(values)?,
+        weights: None,
     })
+}
+
+/// The axis in which the curve is its own mirror image.
+///
+/// # Errors
+/// If it cannot be with the other values.
+fn mirror(values: &Values) -> Result<Option<Mirror>, OperationError> {
+    let mirror = values.choice(&SYMMETRIC, &[None, Some(Mirror::X), Some(Mirror::Y)]);
+    let other = [&PERIODIC, &SPLIT].into_iter().find(|it| values.switch(it));
+    if let (Some(_), Some(other)) = (mirror, other) {
+        return Err(OperationError::Exclude {
+            first: SYMMETRIC.label,
+            second: other.label,
+        });
+    }
+    for (parameter, rest, needed) in [(&EXTREMA, 1, "odd"), (&INFLECTIONS, 0, "even")] {
+        let count = given_count(values, parameter).filter(|count| count % 2 != rest);
+        if let (Some(_), Some(count)) = (mirror, count) {
+            return Err(OutOfRange {
+                label: parameter.label,
+                value: count.to_string().into(),
+                needed: format!("{needed}, as the curve is symmetric,").into(),
+            }
+            .into());
+        }
+    }
+    Ok(mirror)
 }
 
 /// The number of vertices asked for, at most as many as there are points.
@@ -465,17 +518,7 @@ fn figures(fitted: &[Fitted]) -> Vec<Figure> {
 
 /// What is to say beside the figures.
 fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
-    let mut remarks = Vec::new();
-    if !found.outliers.is_empty() {
-        let points = found.outliers.iter();
-        let points = points.map(|(index, off)| format!("{index} ({} off)", significant(*off, 3)));
-        let points: Vec<String> = points.collect();
-        remarks.push(format!("Left out: {}", points.join(", ")));
-    }
-    if !found.repeated.is_empty() {
-        let points = counted(found.repeated.len(), "point repeats", "points repeat");
-        remarks.push(format!("{points} the one before: each counts once"));
-    }
+    let mut remarks = remarks_on_points(&found.outliers, &found.repeated);
     if !found.holds {
         let has = counted(found.extrema, "curvature extremum", "curvature extrema");
         remarks.push(format!(
@@ -503,16 +546,36 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
             ));
         }
     }
-    if let Some(tolerance) = asked.tolerance.filter(|it| *it < found.noise) {
-        let [noise, tolerance] = [found.noise, tolerance].map(|length| significant(length, 3));
-        remarks.push(format!(
-            "The tolerance {tolerance} is below the estimated noise {noise} of the points"
-        ));
-    }
+    remarks.extend(remark_on_noise(asked.tolerance, found.noise));
     if found.stopped {
         remarks.push(TIME_IS_UP.to_owned());
     }
     remarks
+}
+
+/// Tell the points that do not count.
+fn remarks_on_points(outliers: &[(usize, f64)], repeated: &[usize]) -> Vec<String> {
+    let mut remarks = Vec::new();
+    if !outliers.is_empty() {
+        let points = outliers.iter();
+        let points = points.map(|(index, off)| format!("{index} ({} off)", significant(*off, 3)));
+        let points: Vec<String> = points.collect();
+        remarks.push(format!("Left out: {}", points.join(", ")));
+    }
+    if !repeated.is_empty() {
+        let points = counted(repeated.len(), "point repeats", "points repeat");
+        remarks.push(format!("{points} the one before: each counts once"));
+    }
+    remarks
+}
+
+/// Tell a tolerance below the noise.
+fn remark_on_noise(tolerance: Option<f64>, noise: f64) -> Option<String> {
+    let tolerance = tolerance.filter(|tolerance| *tolerance < noise)?;
+    let [noise, tolerance] = [noise, tolerance].map(|length| significant(length, 3));
+    Some(format!(
+        "The tolerance {tolerance} is below the estimated noise {noise} of the points"
+    ))
 }
 
 /// Fit a curve in space.
@@ -522,24 +585,64 @@ fn in_space(
     progress: &Progress,
 ) -> Result<Outcome, OperationError> {
     let points: &[DVec3] = input.points();
+    let asked = asked(points.len(), values)?;
     let asked = FitRequest {
-        degree: values.whole(&DEGREE),
-        count: vertices(points.len(), values)?,
-        extrema: given_count(values, &EXTREMA),
-        tolerance: given(values, &TOLERANCE),
+        degree: asked.degree,
+        count: asked.count,
+        most: asked.most,
+        extrema: asked.extrema.number(),
+        torsion_zeros: asked.inflections,
+        tolerance: asked.tolerance,
+        outliers: asked.outliers,
+        weights: input.weights().map(<[f64]>::to_vec),
     };
-    let found = fit_points(points, &asked, progress).map_err(|error| match error {
-        FitError::Cancelled => OperationError::Cancelled,
-        error => error.into(),
-    })?;
-    let mut remarks = Vec::new();
-    if asked
-        .extrema
-        .is_some_and(|extrema| extrema != found.extrema)
-    {
+    let found = fit_points(points, &asked, &limited(progress, values)).map_err(told)?;
+    let outliers: Vec<usize> = found.outliers.iter().map(|(index, _)| *index).collect();
+    let features = features(asked.extrema, asked.torsion_zeros);
+    let limit = asked.tolerance.map(|most| Requirement::Limit {
+        found: found.deviation,
+        most,
+    });
+    let requirements = features.into_iter().chain(limit).collect();
+    let name = input.document().free_name("fit");
+    let marked = outliers.iter().filter_map(|index| points.get(*index));
+    Ok(Outcome {
+        requirements: vec![(input.document().next_id(), requirements)],
+        edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
+        figures: vec![
+            Figure::count("vertices", "Vertices", found.polygon.vertices().len()),
+            Figure::count("extrema", "Curvature extrema", found.extrema),
+            Figure::count("inflections", "Torsion zeros", found.torsion_zeros),
+            Figure::length("rms", "Off on average (RMS)", found.rms),
+            Figure::length("largest", "Largest distance", found.largest),
+            Figure::length("noise", "Estimated noise", found.noise),
+            Figure::count("outliers", "Outliers", outliers.len()),
+            Figure::indices("outlying_points", "Outlying points", &outliers),
+        ],
+        remarks: remarks_in_space(input, values, &asked, &found),
+        annotations: marked.map(|point| Annotation::Point(*point)).collect(),
+        ..Outcome::unchanged(Deviation::FromPoints(found.deviation))
+    })
+}
+
+/// What is to say of a curve in space beside the figures.
+fn remarks_in_space(
+    input: &Operands,
+    values: &Values,
+    asked: &FitRequest,
+    found: &approximation::Fitted,
+) -> Vec<String> {
+    let mut remarks = remarks_on_points(&found.outliers, &found.repeated);
+    let is_missed = |asked: Option<usize>, found: usize| asked.is_some_and(|it| it != found);
+    if is_missed(asked.extrema, found.extrema) {
         let has = counted(found.extrema, "curvature extremum", "curvature extrema");
         remarks.push(format!(
             "The curve has {has}: give it more vertices, or ask for other extrema"
+        ));
+    } else if is_missed(asked.torsion_zeros, found.torsion_zeros) {
+        let has = counted(found.torsion_zeros, "zero", "zeros");
+        remarks.push(format!(
+            "Its torsion has {has}: give it other vertices, or ask for other inflections"
         ));
     } else if found.rms > FAR * found.rms_of_any {
         let [rms, any] = [found.rms, found.rms_of_any].map(|length| significant(length, 3));
@@ -547,11 +650,15 @@ fn in_space(
             "With any number of extrema the RMS is {any}, not {rms}"
         ));
     }
-    if let Some(tolerance) = asked.tolerance.filter(|it| found.largest > *it) {
-        let [off, tolerance] = [found.largest, tolerance].map(|length| significant(length, 3));
+    if let Some(tolerance) = asked.tolerance.filter(|it| found.deviation > *it) {
+        let [off, tolerance] = [found.deviation, tolerance].map(|length| significant(length, 3));
         remarks.push(format!(
             "One point is {off} off the curve, the tolerance is {tolerance}: allow more"
         ));
+    }
+    remarks.extend(remark_on_noise(asked.tolerance, found.noise));
+    if found.stopped {
+        remarks.push(TIME_IS_UP.to_owned());
     }
     let is_given = |parameter: &&&Parameter| {
         let default = parameter.default(input).ok();
@@ -565,26 +672,5 @@ fn in_space(
     if !ignored.is_empty() {
         remarks.push(format!("Of planar points alone: {}", ignored.join(", ")));
     }
-    let features = features(asked.extrema, None);
-    let limit = asked.tolerance.map(|most| Requirement::Limit {
-        found: found.largest,
-        most,
-    });
-    let requirements = features.into_iter().chain(limit).collect();
-    let name = input.document().free_name("fit");
-    let marked = found.outliers.iter().filter_map(|index| points.get(*index));
-    Ok(Outcome {
-        requirements: vec![(input.document().next_id(), requirements)],
-        edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
-        figures: vec![
-            Figure::count("vertices", "Vertices", found.polygon.vertices().len()),
-            Figure::count("extrema", "Curvature extrema", found.extrema),
-            Figure::length("rms", "Off on average (RMS)", found.rms),
-            Figure::count("outliers", "Outliers", found.outliers.len()),
-            Figure::indices("outlying_points", "Outlying points", &found.outliers),
-        ],
-        remarks,
-        annotations: marked.map(|point| Annotation::Point(*point)).collect(),
-        ..Outcome::unchanged(Deviation::FromPoints(found.largest))
-    })
+    remarks
 }

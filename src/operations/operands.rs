@@ -16,6 +16,7 @@ pub struct Operands {
     document: Document,
     curves: Vec<(CurveId, Arc<Curve>)>,
     points: Vec<DVec3>,
+    weights: Option<Vec<f64>>,
     reference: Option<ReferenceCurve>,
 }
 
@@ -37,6 +38,7 @@ impl Operands {
             document: document.clone(),
             curves: curves?,
             points: Vec::new(),
+            weights: None,
             reference: None,
         })
     }
@@ -73,7 +75,10 @@ impl Operands {
             (Inputs::Points, None, Some((_, curve))) => Some(curve.polygon.vertices().to_vec()),
             _ => None,
         };
-        Ok(operands.with_points(points.unwrap_or_default()))
+        Ok(Self {
+            weights: reference.and_then(|it| it.weights()).map(<[f64]>::to_vec),
+            ..operands.with_points(points.unwrap_or_default())
+        })
     }
 
     /// Add a table of points with finite coordinates.
@@ -104,6 +109,11 @@ impl Operands {
     /// The points of the table.
     pub fn points(&self) -> &[DVec3] {
         &self.points
+    }
+
+    /// How much each point counts, if they differ.
+    pub fn weights(&self) -> Option<&[f64]> {
+        self.weights.as_deref()
     }
 
     /// Whether it is what an operation wants.

@@ -60,8 +60,8 @@ pub fn fit_points(
             extrema: found.extrema,
             rms: found.rms,
             rms_of_any: found.rms_of_any,
-            largest: found.largest,
-            outliers: found.outliers,
+            largest: found.deviation,
+            outliers: found.outliers.into_iter().map(|(index, _)| index).collect(),
         });
     }
     let flat: Vec<_> = points.iter().map(|point| point.truncate()).collect();
@@ -78,7 +78,7 @@ pub fn fit_points(
     let free = FitRequest {
         extrema: None,
         count: Some(found.polygon.vertices().len()),
-        ..*asked
+        ..asked.clone()
     };
     let any = match asked.extrema {
         Some(_) => approximation::fit_points(points, &free, progress)?.rms,
@@ -98,8 +98,12 @@ pub fn fit_points(
 const ASKED: FitRequest = FitRequest {
     degree: 5,
     count: None,
+    most: None,
     extrema: None,
+    torsion_zeros: None,
     tolerance: None,
+    outliers: None,
+    weights: None,
 };
 
 /// References with the number of extrema of their curvature.
@@ -166,7 +170,7 @@ fn good_points_in_a_row_are_no_outliers() {
             // A tolerance that this curve keeps makes no other one worse.
             let kept = FitRequest {
                 tolerance: Some(found.largest),
-                ..asked
+                ..asked.clone()
             };
             let again = fit_points(&points, &kept, &Progress::default()).expect("a curve");
             if again.reached != found.reached || again.largest > found.largest {
@@ -253,6 +257,85 @@ fn points_in_space_are_fitted() {
     let found = fit_points(&points, &asked, &Progress::default()).expect("a curve");
     assert_eq!(found.polygon.vertices().len(), 20);
     assert!(found.rms < 1e-4, "{}", found.rms);
+}
+
+/// Points round a helix whose height waves, with sparse parts.
+fn wavy_helix(count: usize, off: f64, random: &mut Random) -> Vec<DVec3> {
+    let mut place = |index: usize| {
+        let t = 9.0 * (index as f64 / (count - 1) as f64).powf(1.6);
+        let point = DVec3::new(3.0 * t.cos(), 3.0 * t.sin(), 1.5 * t + (1.4 * t).sin());
+        point + random.vector(off, true)
+    };
+    (0..count).map(&mut place).collect()
+}
+
+#[test]
+fn points_in_space_have_the_rules_of_the_plane() {
+    let mut random = Random(5);
+    let mut points = wavy_helix(90, 0.01, &mut random);
+    points[40] += DVec3::new(0.0, 0.3, 0.4);
+    points.insert(60, points[60]);
+    let fit = |asked: FitRequest| {
+        approximation::fit_points(&points, &asked, &Progress::default()).expect("a curve")
+    };
+    let found = fit(ASKED);
+    let numbers = |found: &approximation::Fitted| -> Vec<usize> {
+        found.outliers.iter().map(|(index, _)| *index).collect()
+    };
+    assert_eq!((numbers(&found), &found.repeated), (vec![40], &vec![61]));
+    assert!(found.polygon.vertices().len() <= 45);
+    assert!((0.004..0.02).contains(&found.noise), "{}", found.noise);
+    assert!(found.deviation < 0.05 && found.largest > 0.3);
+    // Between the points the curve is as long as they are apart.
+    let polyline: f64 = points.windows(2).map(|it| it[0].distance(it[1])).sum();
+    let curve = &found.polygon;
+    let end = curve.segments() as f64;
+    let samples: Vec<DVec3> = (0..=4000)
+        .map(|it| curve.point(end * f64::from(it) / 4000.0))
+        .collect();
+    let length: f64 = samples.windows(2).map(|it| it[0].distance(it[1])).sum();
+    assert!(length < 1.02 * polyline, "{length} {polyline}");
+    let kept = fit(FitRequest {
+        outliers: Some(Vec::new()),
+        most: Some(12),
+        ..ASKED
+    });
+    assert!(kept.outliers.is_empty() && kept.polygon.vertices().len() <= 12);
+    assert_eq!(kept.largest, kept.deviation);
+    // Where a point weighs much the curve is near it.
+    let mut weights = vec![1.0; points.len()];
+    weights[40] = 1e4;
+    let pulled = fit(FitRequest {
+        outliers: Some(Vec::new()),
+        count: Some(20),
+        weights: Some(weights),
+        ..ASKED
+    });
+    assert!(pulled.polygon.nearest(points[40]).distance < 0.05);
+}
+
+#[test]
+fn zeros_of_the_torsion_are_as_asked_for_or_missed() {
+    let mut random = Random(9);
+    let points = wavy_helix(80, 0.02, &mut random);
+    let fit = |zeros: usize| {
+        let asked = FitRequest {
+            torsion_zeros: Some(zeros),
+            ..ASKED
+        };
+        approximation::fit_points(&points, &asked, &Progress::default()).expect("a curve")
+    };
+    let mut reached = 0;
+    for zeros in [0, 2, 4, 6] {
+        let found = fit(zeros);
+        let proved = Features::new(&found.polygon).torsion_zeros.len();
+        assert_eq!(
+            (found.reached, found.torsion_zeros),
+            (proved == zeros, proved)
+        );
+        reached += usize::from(found.reached);
+    }
+    assert!(reached >= 1);
 }
 
 #[test]

@@ -51,7 +51,7 @@ impl Tally {
             degree,
             count,
             extrema: Some(extrema),
-            tolerance: None,
+            ..FitRequest::default()
         };
         let found = fit_points(&points, &asked, &Progress::default()).expect("a curve");
         let proved = Features::new(&found.polygon).curvature_extrema.len();

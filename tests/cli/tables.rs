@@ -102,6 +102,78 @@ fn a_table_is_fitted_converted_and_inspected_in_one_step() {
 }
 
 #[test]
+fn a_column_of_weights_counts_in_a_fit_and_is_kept() {
+    let row = |index: usize| {
+        let x = 0.1 * index as f64;
+        let (off, weight) = if index == 10 {
+            (0.4, "0")
+        } else {
+            (0.0, "2.5")
+        };
+        format!("{index};{x};{};{weight}\n", x * x + off)
+    };
+    let rows: String = (0..24).map(row).collect();
+    let table = format!("station;x;y;trust\n{rows}");
+    let folder = Folder::new().with("scan.csv", &table);
+    let fit = ["apply", "fit", "scan.csv", "out.batten", "--extrema", "0"];
+    for column in ["trust", "4"] {
+        let (report, _) =
+            folder.done(&[&fit[..], &["--outliers", "keep", "--weights", column]].concat());
+        let report: Value = serde_json::from_str(&report).expect("JSON");
+        assert_eq!(report["outlying_points"], json!([10]), "{report}");
+        assert!(
+            report["deviation"].as_f64().is_some_and(|it| it < 1e-4),
+            "{report}"
+        );
+        assert!(
+            report["largest"].as_f64().is_some_and(|it| it > 0.1),
+            "{report}"
+        );
+    }
+    let kept = std::fs::read_to_string(folder.path("out.batten")).expect("a file");
+    let kept: Value = serde_json::from_str(&kept).expect("JSON");
+    let weights = kept["references"][0]["weights"]
+        .as_array()
+        .expect("weights");
+    assert_eq!(
+        (weights.len(), &weights[9], &weights[10]),
+        (24, &json!(2.5), &json!(0.0))
+    );
+    // A project tells the weights itself.
+    folder.done(&[
+        "apply",
+        "fit",
+        "out.batten",
+        "again.batten",
+        "--curve",
+        "points 1",
+        "--extrema",
+        "0",
+        "--outliers",
+        "keep",
+    ]);
+    let (_, losses) = folder.done(&["convert", "again.batten", "out.csv"]);
+    assert!(
+        losses.contains("“points 1”: weights of points aren't stored"),
+        "{losses}"
+    );
+    folder.refused(
+        &["apply", "fit", "scan.csv", "out.batten", "--weights", "5"],
+        "scan.csv: line 1: the table has no column 5: it has 1 “station”, 2 “x”, 3 “y”, 4 “trust”",
+    );
+    let bad = Folder::new().with(
+        "scan.csv",
+        &table.replace("9;0.9;0.81;2.5", "9;0.9;0.81;-1"),
+    );
+    let problem =
+        "line 11, reference 1 “points 1”: point 9 has no weight that can be used: from 0 to 1e100";
+    bad.refused(
+        &[&fit[..], &["--weights", "trust"]].concat(),
+        &format!("scan.csv: {problem}"),
+    );
+}
+
+#[test]
 fn columns_are_chosen_wherever_a_table_is_read() {
     let table = "station;half breadth [mm];height [mm]\n1;0;2\n2;1,5;4\n3;5;5\n";
     let folder = Folder::new().with("hull.csv", table);

@@ -30,8 +30,8 @@ pub(in crate::geometry) struct NearPoints {
 pub(in crate::geometry) struct Points<'a> {
     /// The points in their order along the curve.
     pub(in crate::geometry) points: &'a [DVec3],
-    /// Which of them count.
-    pub(in crate::geometry) counts: &'a [bool],
+    /// How much each of them counts.
+    pub(in crate::geometry) weights: &'a [f64],
     /// The weight λ of Σ |Δ³P|².
     pub(in crate::geometry) fairness: f64,
     /// The unit σ of distances: about how far points are off any such curve.
@@ -86,10 +86,9 @@ impl Points<'_> {
     /// Evaluate Σ |C(uᵢ) − pᵢ|² / σ².
     pub(super) fn square(&self, near: &NearPoints) -> f64 {
         let offsets = near.offsets(self.points);
-        let counting = offsets.iter().zip(self.counts);
-        let counting = counting.filter(|(_, counts)| **counts);
-        counting
-            .map(|(offset, _)| (*offset / self.noise).length_squared())
+        let weighed = offsets.iter().zip(self.weights);
+        weighed
+            .map(|(offset, weight)| weight * (*offset / self.noise).length_squared())
             .sum()
     }
 
@@ -108,16 +107,17 @@ impl Points<'_> {
     pub(super) fn gather(&self, near: &NearPoints, squares: &mut LeastSquares) {
         let polygon = &near.polygon;
         let end = polygon.segments() as f64;
-        let placed = self.points.iter().zip(&near.places).zip(self.counts);
-        for ((point, u), _) in placed.filter(|(_, counts)| **counts) {
+        let placed = self.points.iter().zip(&near.places).zip(self.weights);
+        for ((point, u), weight) in placed {
+            let factor = weight.sqrt() / self.noise;
             let (segment, t) = polygon.locate(*u);
             let basis: Vec<f64> = uniform_basis_derivative(polygon.degree(), 0, t);
-            let weights = basis.iter().enumerate();
-            let stencil: Vec<(usize, f64)> = weights
-                .map(|(index, weight)| (segment + index, weight / self.noise))
+            let basis = basis.iter().enumerate();
+            let stencil: Vec<(usize, f64)> = basis
+                .map(|(index, value)| (segment + index, factor * value))
                 .collect();
             let jet = polygon.jet(*u);
-            let off = (jet.point - *point) / self.noise;
+            let off = factor * (jet.point - *point);
             let along = jet.first.try_normalize();
             let Some(along) = along.filter(|_| *u > 0.0 && *u < end) else {
                 squares.add_vector(off, &stencil);
@@ -131,13 +131,9 @@ impl Points<'_> {
                 squares.add(weight * off.dot(direction), &gradient);
             };
             add(along, ALONG);
-            if polygon.is_planar() {
-                add(DVec3::new(-along.y, along.x, 0.0), 1.0);
-            } else {
-                let (first, second) = along.any_orthonormal_pair();
-                add(first, 1.0);
-                add(second, 1.0);
-            }
+            let (first, second) = along.any_orthonormal_pair();
+            add(first, 1.0);
+            add(second, 1.0);
         }
         let stencil = fair_stencil(polygon);
         let factor = self.fair_factor();

@@ -1,4 +1,4 @@
-//! Nearest curve to points among those whose curvature rises and falls as requested.
+//! Nearest curve to points in space among those whose curvature rises and falls as requested.
 //!
 //! Makes Σ |C(uᵢ) − pᵢ|² + λ Σ |Δ³P|² small while the slope of the curvature keeps its sign between
 //! two turns, at samples: the conditions press by multipliers, which are found by turns with the
@@ -62,13 +62,12 @@ pub(in crate::geometry) fn nearest_with_extrema(
     progress: &Progress,
 ) -> Result<Option<NearPoints>, PolygonError> {
     let polygon = &from.polygon;
-    let planar = polygon.is_planar();
     let segments = 0..polygon.segments();
     let samples = segments.flat_map(|segment| SAMPLES.map(|t| (segment, t)));
     let samples = samples.map(|(segment, t)| SlopeSign::new(polygon, segment, t, true));
     let samples: Vec<SlopeSign> = samples.collect();
     let vertices = polygon.vertices();
-    let curvatures = samples.iter().map(|it| it.curvature(vertices, planar));
+    let curvatures = samples.iter().map(|it| it.curvature(vertices));
     let curvatures: Vec<f64> = curvatures.collect();
     if !curvatures.iter().all(|curvature| curvature.is_finite()) {
         return Ok(None);
@@ -81,8 +80,7 @@ pub(in crate::geometry) fn nearest_with_extrema(
         }
         let fit = PointFit {
             points,
-            planar,
-            unknowns: Unknowns::new(polygon, planar, |_| true),
+            unknowns: Unknowns::new(polygon, false, |_| true),
             extrema,
             progress,
             weight: FIRST,
@@ -99,7 +97,6 @@ pub(in crate::geometry) fn nearest_with_extrema(
 
 struct PointFit<'a> {
     points: &'a Points<'a>,
-    planar: bool,
     unknowns: Unknowns,
     extrema: usize,
     progress: &'a Progress,
@@ -160,7 +157,7 @@ impl PointFit<'_> {
     /// The weight that fits the mean size of the slopes: less where they are noise, more where the curve is smooth.
     fn first_weight(&self, polygon: &FloatPolygon) -> f64 {
         let slopes = self.signs.iter();
-        let slopes = slopes.map(|sign| sign.slope(polygon.vertices(), self.planar).0.abs());
+        let slopes = slopes.map(|sign| sign.slope(polygon.vertices()).0.abs());
         let mean = slopes.sum::<f64>() / self.signs.len() as f64;
         mean.recip().clamp(FIRST, LAST)
     }
@@ -169,7 +166,7 @@ impl PointFit<'_> {
     fn update(&mut self, polygon: &FloatPolygon) -> bool {
         let mut holds = true;
         for sign in &mut self.signs {
-            let (slope, _) = sign.slope(polygon.vertices(), self.planar);
+            let (slope, _) = sign.slope(polygon.vertices());
             sign.update(self.weight, slope);
             holds &= slope > 0.0;
         }
@@ -214,7 +211,7 @@ impl PointFit<'_> {
     fn value(&self, near: &NearPoints) -> f64 {
         let vertices = near.polygon.vertices();
         let pressures = self.signs.iter().map(|sign| {
-            let (slope, _) = sign.slope(vertices, self.planar);
+            let (slope, _) = sign.slope(vertices);
             2.0 * sign.pressure(self.weight, slope).value
         });
         self.points.value(near) + pressures.sum::<f64>()
@@ -225,7 +222,7 @@ impl PointFit<'_> {
         let mut squares = LeastSquares::new(&self.unknowns);
         self.points.gather(near, &mut squares);
         for sign in &self.signs {
-            let (slope, gradient) = sign.slope(vertices, self.planar);
+            let (slope, gradient) = sign.slope(vertices);
             let pressure = sign.pressure(self.weight, slope);
             let root = pressure.second.sqrt();
             let gradient = gradient.into_iter();
@@ -249,7 +246,7 @@ impl PointFit<'_> {
             return false;
         };
         for sign in &mut self.signs[first..] {
-            let (_, gradient) = sign.slope(near.polygon.vertices(), self.planar);
+            let (_, gradient) = sign.slope(near.polygon.vertices());
             let row = self.unknowns.row(&gradient);
             let response = factors.solve(&row);
             let terms = row.iter().zip(response);
@@ -272,7 +269,7 @@ impl PointFit<'_> {
             let nearest = nearest.min_by(|a, b| distance(a).total_cmp(&distance(b)));
             let rises = nearest.is_some_and(|sign| sign.rises);
             let sign = SlopeSign::new(&near.polygon, segment, t, rises);
-            if sign.slope(near.polygon.vertices(), self.planar).0 < 0.0 {
+            if sign.slope(near.polygon.vertices()).0 < 0.0 {
                 self.signs.push(sign);
             }
         }

@@ -1,5 +1,7 @@
 //! Short rows over the vertices, and the symmetric band matrix that they make.
 
+use super::mirror::Mirror;
+
 /// Where the unknowns of the vertices stand.
 ///
 /// Vertex v has the unknowns 2 p(v) and 2 p(v) + 1, for x and y. On an open curve p(v) = v; on a periodic one
@@ -65,6 +67,46 @@ impl Layout {
     /// The first unknown of a vertex.
     pub(super) fn unknown(&self, vertex: usize) -> usize {
         2 * self.places[vertex % self.places.len()]
+    }
+
+    /// The unknown of the same coordinate of the vertex as far from the other end.
+    fn mirrored(&self) -> Vec<usize> {
+        let count = self.places.len();
+        let mut mirrored = vec![0; self.unknowns()];
+        for vertex in 0..count {
+            let [own, other] = [self.unknown(vertex), self.unknown(count - 1 - vertex)];
+            mirrored[own] = other;
+            mirrored[own + 1] = other + 1;
+        }
+        mirrored
+    }
+
+    /// Make equations of vertices those of curves that are their own mirror images: the mean of them and their
+    /// images.
+    pub(super) fn symmetrise(&self, mirror: Mirror, matrix: &mut BandMatrix) {
+        let (mirrored, band) = (self.mirrored(), matrix.band);
+        let old = matrix.columns.clone();
+        for (column, entries) in matrix.columns.chunks_exact_mut(band).enumerate() {
+            let rows = (column..mirrored.len()).zip(entries);
+            for (row, entry) in rows {
+                let (a, b) = (mirrored[row], mirrored[column]);
+                let (first, apart) = (a.min(b), a.abs_diff(b));
+                let image = if apart < band {
+                    old[first * band + apart]
+                } else {
+                    0.0
+                };
+                *entry = 0.5 * (*entry + mirror.sign(row, column) * image);
+            }
+        }
+    }
+
+    /// Do so with the right side of the equations.
+    pub(super) fn symmetrise_right(&self, mirror: Mirror, right: &mut [f64]) {
+        let old = right.to_vec();
+        for (unknown, other) in self.mirrored().into_iter().enumerate() {
+            right[unknown] = 0.5 * (old[unknown] + mirror.factor(unknown) * old[other]);
+        }
     }
 
     /// The unknowns of a row's entries.

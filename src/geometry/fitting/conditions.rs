@@ -54,6 +54,12 @@ impl Conditions {
             for (index, value) in found.slopes.iter().enumerate().skip(shared) {
                 let sign = signs.next().unwrap_or(1.0);
                 let gradient = found.slope_gradients.get(index);
+                // In the middle a curve that is its own mirror image has none.
+                let is_middle = 2 * conditions.values.len() + 1 == conditions.slopes;
+                let margin = match problem.data.mirror {
+                    Some(_) if is_middle => -LEAST_MARGIN,
+                    _ => margin,
+                };
                 conditions.push(segment, sign, *value, gradient, margin);
             }
         }

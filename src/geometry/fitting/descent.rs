@@ -303,6 +303,10 @@ impl Descent<'_> {
             layout.add_squares(rows, &vec![1.0; rows.firsts.len()], &mut matrix);
             layout.add_transposed(rows, &off, &mut gradient);
         }
+        if let Some(mirror) = problem.data.mirror {
+            layout.symmetrise(mirror, &mut matrix);
+            layout.symmetrise_right(mirror, &mut gradient);
+        }
         let (rows, norms) = normalised(&now.conditions.rows, &scales);
         Model {
             values: shares(&now.conditions.values, &norms),
@@ -430,6 +434,9 @@ impl Descent<'_> {
             let unknown = self.problem.layout.unknown(index);
             *vertex += length * *scale * DVec2::new(step[unknown], step[unknown + 1]);
         }
+        if let Some(mirror) = self.problem.data.mirror {
+            mirror.symmetrise(&mut curve.vertices);
+        }
         self.problem.project(curve, 2);
     }
 
@@ -443,9 +450,18 @@ impl Descent<'_> {
     fn slide(&self, start: &mut Start, press: &[f64], slopes: usize) -> bool {
         let (of_slopes, of_bends) = press.split_at(slopes.min(press.len()));
         let tables = self.problem.tables;
-        let slid = start.slopes.slide(of_slopes, tables.slopes());
-        let bends = start.bends.as_mut();
-        bends.is_some_and(|bends| bends.slide(of_bends, tables.bends())) || slid
+        let before = (start.slopes.clone(), start.bends.clone());
+        start.slopes.slide(of_slopes, tables.slopes());
+        if let Some(bends) = &mut start.bends {
+            bends.slide(of_bends, tables.bends());
+        }
+        if self.problem.data.mirror.is_some() {
+            start.slopes.symmetrise(of_slopes.len());
+            if let Some(bends) = &mut start.bends {
+                bends.symmetrise(of_bends.len());
+            }
+        }
+        before != (start.slopes.clone(), start.bends.clone())
     }
 
     /// Go to the nearest curve that meets all conditions. Returns whether it does.

@@ -5,9 +5,11 @@ use std::time::Duration;
 
 use glam::{DVec2, DVec3};
 
+use super::counted_points::CountedPoints;
 use super::error::FitError;
 use super::levels::{Level, Task, size};
-use super::neighbours::{noise, outliers, with_middles};
+use super::mirror::Mirror;
+use super::neighbours::with_middles;
 use super::problem::{Data, EndCondition, EndValue};
 use super::slope_coefficients::SlopeTables;
 use crate::geometry::control_polygon::check_size;
@@ -61,6 +63,16 @@ pub enum Extrema {
     Exactly(usize),
 }
 
+impl Extrema {
+    /// The number asked for.
+    pub fn number(self) -> Option<usize> {
+        match self {
+            Self::Fewest => None,
+            Self::Exactly(number) => Some(number),
+        }
+    }
+}
+
 /// What is asked of a fit in the plane.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlaneFit {
@@ -86,6 +98,11 @@ pub struct PlaneFit {
     pub curvatures: [Option<f64>; 2],
     /// The points that do not count, from 0; `None` for those that stand out.
     pub outliers: Option<Vec<usize>>,
+    /// The axis in which the curve is its own mirror image. An open one has an odd number of extrema then, and an
+    /// even one of inflections; the conditions at the start count for the end too.
+    pub mirror: Option<Mirror>,
+    /// How much each point counts; `None` if all count the same. Those of weight 0 do not count.
+    pub weights: Option<Vec<f64>>,
 }
 
 /// How near a number of extrema comes.
@@ -95,7 +112,7 @@ pub struct TradeOff {
     pub extrema: usize,
     /// The number of vertices.
     pub vertices: usize,
-    /// The root of the mean squared distance of the points that count.
+    /// The root of the mean squared distance of the points that count, weighed.
     pub rms: f64,
     /// The largest of these distances.
     pub largest: f64,
@@ -112,7 +129,7 @@ pub struct Fitted {
     pub extrema: usize,
     /// The number of inflections.
     pub inflections: usize,
-    /// The root of the mean squared distance of the points that count.
+    /// The root of the mean squared distance of the points that count, weighed.
     pub rms: f64,
     /// The largest distance of the points that count.
     pub deviation: f64,
@@ -173,7 +190,8 @@ struct Prepared {
     /// With light ones between them.
     points: Vec<DVec2>,
     weights: Vec<f64>,
-    /// How many of them count.
+    /// Which of them are no light ones, and how many.
+    counts: Vec<bool>,
     counting: usize,
     middle: DVec2,
     unit: f64,
@@ -187,75 +205,73 @@ struct Prepared {
 impl Prepared {
     fn new(points: &[DVec2], asked: &PlaneFit) -> Result<Self, FitError> {
         check_size(asked.degree, asked.count.unwrap_or(asked.degree + 1), false)?;
-        let mut repeated: Vec<usize> = (1..points.len())
-            .filter(|index| points[*index] == points[index - 1])
-            .collect();
-        let closes = points.len() > 1 && points.first() == points.last();
-        if asked.periodic && closes && repeated.last() != Some(&(points.len() - 1)) {
-            repeated.push(points.len() - 1);
-        }
-        let is_new = |index: &usize| repeated.binary_search(index).is_err();
-        let numbers: Vec<usize> = (0..points.len()).filter(is_new).collect();
-        let (degree, found) = (asked.degree, numbers.len());
         let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let middle = 0.5 * low + 0.5 * high;
+        let mut middle = 0.5 * low + 0.5 * high;
+        if let Some(mirror) = asked.mirror {
+            middle = mirror.onto_axis(middle);
+        }
         let unit = 2.0_f64.powi((high - low).max_element().log2().ceil() as i32);
-        if found < degree + 1 || !(unit > 0.0 && unit.is_finite()) {
+        let degree = asked.degree;
+        if !(unit > 0.0 && unit.is_finite()) {
+            let found = points.len().min(1);
             return Err(FitError::TooFewPoints { found, degree });
         }
-        if let Some(count) = asked.count.filter(|count| *count > found) {
-            let points = found;
+        let scaled = points
+            .iter()
+            .map(|point| ((*point - middle) / unit).extend(0.0));
+        let scaled: Vec<DVec3> = scaled.collect();
+        let left_out = asked.outliers.as_deref();
+        let counted =
+            CountedPoints::new(&scaled, asked.periodic, left_out, asked.weights.as_deref());
+        let differing = points.len() - counted.repeated.len();
+        let found = counted.points.len();
+        if differing.min(found) < degree + 1 {
+            return Err(FitError::TooFewPoints { found, degree });
+        }
+        if let Some(count) = asked.count.filter(|count| *count > differing) {
+            let points = differing;
             return Err(FitError::TooManyVertices { count, points });
         }
         if let Extrema::Exactly(extrema) = asked.extrema
-            && extrema + OUTER > found
+            && extrema + OUTER > differing
         {
             return Err(FitError::TooManyExtrema {
                 extrema,
-                count: found,
+                count: differing,
                 of: "points",
                 needed: extrema + OUTER,
             });
         }
-        let scaled: Vec<DVec2> = numbers
-            .iter()
-            .map(|index| (points[*index] - middle) / unit)
-            .collect();
-        let noise = noise(&scaled);
-        let left_out: Vec<usize> = match &asked.outliers {
-            None => outliers(&scaled),
-            Some(given) => {
-                let is_given = |index: &usize| given.contains(&numbers[*index]);
-                (0..scaled.len()).filter(is_given).collect()
-            }
-        };
-        let counts = |index: &usize| left_out.binary_search(index).is_err();
-        let counting = (0..scaled.len()).filter(counts);
-        let counting: Vec<DVec2> = counting.map(|index| scaled[index]).collect();
-        let found = counting.len();
-        if found < degree + 1 {
-            return Err(FitError::TooFewPoints { found, degree });
-        }
+        let (noise, weights) = (counted.noise, counted.weights);
+        let counting: Vec<DVec2> = counted.points.iter().map(|it| it.truncate()).collect();
         let tolerance = match asked.tolerance {
             Some(tolerance) => tolerance / unit,
             None => (NEAR * size(&counting)).max(NOISE * noise),
         };
         let ends = ends(&counting, asked, unit);
-        let (all, weights) = match asked.periodic {
-            true => (counting.clone(), vec![1.0; found]),
-            false => with_middles(&counting),
+        let (all, counts) = match asked.periodic {
+            true => (
+                counted.points.into_iter().zip(weights).collect(),
+                vec![true; found],
+            ),
+            false => with_middles(&counted.points, &weights),
         };
+        let all = all.into_iter();
+        let (points, weights) = all
+            .map(|(point, weight)| (point.truncate(), weight))
+            .unzip();
         Ok(Self {
-            points: all,
+            points,
             weights,
+            counts,
             counting: found,
             middle,
             unit,
             noise,
             tolerance,
-            outliers: left_out.into_iter().map(|index| numbers[index]).collect(),
-            repeated,
+            outliers: counted.outliers,
+            repeated: counted.repeated,
             ends,
         })
     }
@@ -266,6 +282,9 @@ fn ends(points: &[DVec2], asked: &PlaneFit, unit: f64) -> Vec<EndCondition> {
     let mut conditions = Vec::new();
     if asked.periodic {
         return conditions;
+    }
+    if let Some(mirror) = asked.mirror {
+        return mirrored_ends(points, asked, unit, mirror);
     }
     let outer = [points.first(), points.last()];
     for (index, end) in [End::Start, End::Finish].into_iter().enumerate() {
@@ -279,6 +298,45 @@ fn ends(points: &[DVec2], asked: &PlaneFit, unit: f64) -> Vec<EndCondition> {
         conditions.extend(values.map(|value| EndCondition { end, value }));
     }
     conditions
+}
+
+/// The conditions at the start of a curve that is its own mirror image, or those at its end as they are there; the
+/// images hold at its end.
+fn mirrored_ends(
+    points: &[DVec2],
+    asked: &PlaneFit,
+    unit: f64,
+    mirror: Mirror,
+) -> Vec<EndCondition> {
+    let [first, last] = [points.first().copied(), points.last().copied()];
+    let image = |vector: Option<DVec2>| vector.map(|it| mirror.image(it));
+    let [exact, exact_last] = asked.exact_ends;
+    let point = first.filter(|_| exact);
+    let point = point.or(image(last).filter(|_| exact_last));
+    let [direction, end_direction] = asked.directions;
+    // The end runs the other way.
+    let direction = direction.or(image(end_direction).map(|it| -it));
+    let curvature = asked.curvatures[0].or(asked.curvatures[1]);
+    let values = [
+        point.map(EndValue::Point),
+        direction.map(EndValue::Direction),
+        curvature.map(|curvature| EndValue::Curvature(curvature * unit)),
+    ];
+    let values = values.into_iter().flatten();
+    let at_start = values.map(|value| EndCondition {
+        end: End::Start,
+        value,
+    });
+    let both = at_start.flat_map(|start| {
+        let value = match start.value {
+            EndValue::Point(point) => EndValue::Point(mirror.image(point)),
+            EndValue::Direction(direction) => EndValue::Direction(-mirror.image(direction)),
+            EndValue::Curvature(curvature) => EndValue::Curvature(curvature),
+        };
+        let end = End::Finish;
+        [start, EndCondition { end, value }]
+    });
+    both.collect()
 }
 
 /// What a search for the fewest extrema knows.
@@ -316,7 +374,9 @@ impl Fit<'_> {
             data: Data {
                 points: &prepared.points,
                 weights: &prepared.weights,
+                counts: &prepared.counts,
                 ends: &prepared.ends,
+                mirror: self.asked.mirror,
             },
             degree: self.asked.degree,
             periodic: self.asked.periodic,
@@ -398,7 +458,7 @@ impl Fit<'_> {
     fn fewest(&self) -> (Option<Level>, Vec<TradeOff>) {
         let mut search = Search::default();
         let (step, most) = self.numbers();
-        let (mut extrema, mut stale) = (0, 0);
+        let (mut extrema, mut stale) = (usize::from(self.asked.mirror.is_some()), 0);
         // The largest number that misses the tolerance.
         let mut missed = None;
         while extrema <= most {
@@ -421,7 +481,10 @@ impl Fit<'_> {
                 false => 0,
             };
             extrema = match extrema + step + skipped {
-                next if extrema < most => next.min(most / step * step).max(extrema + step),
+                next if extrema < most => {
+                    let last = extrema + (most - extrema) / step * step;
+                    next.min(last).max(extrema + step)
+                }
                 next => next,
             };
             self.progress.set_done((extrema as f64 / 10.0).min(0.9));
@@ -493,7 +556,8 @@ impl Fit<'_> {
 
     /// The step between numbers of extrema, and the most.
     fn numbers(&self) -> (usize, usize) {
-        let step = if self.asked.periodic { 2 } else { 1 };
+        let is_even = self.asked.periodic || self.asked.mirror.is_some();
+        let step = if is_even { 2 } else { 1 };
         (step, MOST_EXTREMA.min(self.prepared.counting / 4))
     }
 
@@ -546,18 +610,22 @@ impl Fit<'_> {
         let features = Features::proved(&polygon, |_| true).ok_or(FitError::Cancelled)?;
         let distances = self.distances(points, level, &polygon);
         let counts = |index: &usize| prepared.outliers.binary_search(index).is_err();
-        let kept: Vec<f64> = (0..points.len())
-            .filter(counts)
-            .map(|it| distances[it])
-            .collect();
-        let square: f64 = kept.iter().map(|distance| distance * distance).sum();
+        let kept: Vec<usize> = (0..points.len()).filter(counts).collect();
+        let weight = |index: usize| match &self.asked.weights {
+            Some(weights) => weights.get(index).copied().unwrap_or(0.0),
+            None => 1.0,
+        };
+        let all: f64 = kept.iter().map(|it| weight(*it)).sum();
+        let squares = kept.iter().map(|it| weight(*it) * distances[*it].powi(2));
+        let square: f64 = squares.sum();
+        let kept: Vec<f64> = kept.into_iter().map(|it| distances[it]).collect();
         let most = |distances: &[f64]| distances.iter().fold(0.0_f64, |most, it| most.max(*it));
         let outliers = prepared.outliers.iter();
         Ok(Fitted {
             holds: level.holds,
             extrema: features.count(Feature::CurvatureExtremum),
             inflections: features.count(Feature::Inflection),
-            rms: (square / kept.len().max(1) as f64).sqrt(),
+            rms: (square / all.max(f64::MIN_POSITIVE)).sqrt(),
             deviation: most(&kept),
             largest: most(&distances),
             outliers: outliers.map(|index| (*index, distances[*index])).collect(),

@@ -15,6 +15,11 @@ use crate::geometry::progress::Progress;
 /// The factor between the numbers of segments of two levels.
 const GROWTH: f64 = 1.35;
 
+/// The middle of a symmetric curve is a point near the axis, which costs so much a share away from the middle of all
+/// points; no half is shorter than this share.
+const AWAY: f64 = 0.1;
+const MIDDLE: f64 = 0.2;
+
 /// Steps of a level that begins at the one before, of its second try, and of a fresh start.
 const WARM_STEPS: usize = 20;
 const SECOND_STEPS: usize = 40;
@@ -314,7 +319,24 @@ impl<'a> Task<'a> {
             false => open_shares(points, bend),
         };
         let end = problem.splines.end();
-        shares.into_iter().map(|share| share * end).collect()
+        let middle = self.data.mirror.map(|mirror| {
+            let places = points.iter().zip(&shares);
+            let off = |(point, share): &(&DVec2, &f64)| {
+                mirror.onto_axis(**point).distance(**point) + AWAY * (**share - 0.5).abs()
+            };
+            let nearest = places.min_by(|a, b| off(a).total_cmp(&off(b)));
+            nearest.map_or(0.5, |(_, share)| share.clamp(MIDDLE, 1.0 - MIDDLE))
+        });
+        // Both halves are as long.
+        let placed = |share: f64| match middle {
+            Some(middle) if share < middle => 0.5 * share / middle,
+            Some(middle) => 0.5 + 0.5 * (share - middle) / (1.0 - middle),
+            None => share,
+        };
+        shares
+            .into_iter()
+            .map(|share| placed(share) * end)
+            .collect()
     }
 
     /// Starts at the patterns of a smoothed curve.
@@ -420,7 +442,7 @@ impl<'a> Task<'a> {
             fewer.attempt(problem, start, WEIGHED_STEPS)
         };
         let more = self.extrema.saturating_sub(fewer.extrema);
-        let runs = released_runs(&base, more).into_iter();
+        let runs = released_runs(&base, more, self.data.mirror.is_some()).into_iter();
         runs.map(|slopes| Start {
             slopes: problem.spread_slopes(slopes),
             ..base.start.clone()
@@ -430,7 +452,7 @@ impl<'a> Task<'a> {
 }
 
 /// The signs with one or two more changes in which a run that presses gets the other sign.
-fn released_runs(level: &Level, more: usize) -> Vec<SignRuns> {
+fn released_runs(level: &Level, more: usize, is_symmetric: bool) -> Vec<SignRuns> {
     let (press, runs) = (&level.press, &level.start.slopes);
     let members = press.len();
     let signs = runs.signs(members);
@@ -461,7 +483,12 @@ fn released_runs(level: &Level, more: usize) -> Vec<SignRuns> {
         let is_free = |cut: &usize| [begin, end].iter().all(|it| it.abs_diff(*cut) >= 2);
         let at_start = begin < END;
         let at_end = end + END > members;
+        let image = |cut: usize| members - cut;
         match more {
+            2 if is_symmetric && at_start => {
+                released.push(with(!runs.begins_positive, &[end, image(end)]));
+            }
+            _ if is_symmetric => {}
             1 if at_start => released.push(with(!runs.begins_positive, &[end])),
             1 if at_end => released.push(with(runs.begins_positive, &[begin])),
             2 if !at_start && !at_end && runs.cuts.iter().all(is_free) => {

@@ -8,12 +8,14 @@
 
 mod banded_rows;
 mod conditions;
+mod counted_points;
 mod descent;
 mod error;
 mod first_places;
 mod fit;
 mod interior_point;
 mod levels;
+mod mirror;
 mod monotone_runs;
 mod neighbours;
 mod problem;
@@ -22,8 +24,11 @@ mod sign_runs;
 mod slope_coefficients;
 mod splines;
 
+pub(super) use counted_points::CountedPoints;
 pub use error::FitError;
 pub use fit::{Extrema, Fitted, PlaneFit, TradeOff, fit_plane};
+pub use mirror::Mirror;
 pub(super) use monotone_runs::best_runs;
 pub use neighbours::corners;
+pub(super) use neighbours::with_middles;
 pub(super) use refit::{Refit, refit};

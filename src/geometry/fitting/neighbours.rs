@@ -1,6 +1,6 @@
 //! What points tell of each other: noise, outliers, corners, and points between them.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::first_places::unwrapped;
 
@@ -28,11 +28,11 @@ const LEFT_OUT: f64 = 1.25;
 const CORNER: f64 = 0.5;
 const SHARPER: f64 = 4.0;
 
-/// The weight of a point between two points.
+/// The weight of a point between two points, as a share of theirs.
 const LIGHT: f64 = 0.1;
 
 /// Estimate the standard deviation of the points' noise; where points are sparse, an upper bound of it.
-pub(super) fn noise(points: &[DVec2]) -> f64 {
+pub(super) fn noise(points: &[DVec3]) -> f64 {
     let distances = (0..points.len()).filter_map(|index| left_out_distance(points, index, None));
     let mut sorted: Vec<f64> = distances.collect();
     sorted.sort_by(f64::total_cmp);
@@ -42,7 +42,7 @@ pub(super) fn noise(points: &[DVec2]) -> f64 {
 
 /// List the isolated points that stand out from a smooth run: their neighbours fit well together without them.
 /// None is near an end, and no two are within five points.
-pub(super) fn outliers(points: &[DVec2]) -> Vec<usize> {
+pub(super) fn outliers(points: &[DVec3]) -> Vec<usize> {
     let count = points.len();
     let distances = (0..count).map(|index| left_out_distance(points, index, None));
     let distances: Vec<f64> = distances.map(|it| it.unwrap_or(0.0)).collect();
@@ -98,28 +98,40 @@ pub fn corners(points: &[DVec2]) -> Vec<usize> {
 }
 
 /// Put a light point between each two points, on the cubic through two neighbours on each side, so that the curve
-/// does not bulge where points are sparse. Returns points and weights.
-pub(super) fn with_middles(points: &[DVec2]) -> (Vec<DVec2>, Vec<f64>) {
+/// does not bulge where points are sparse. Returns points with their weights, and which of them are no light ones.
+pub(in crate::geometry) fn with_middles(
+    points: &[DVec3],
+    weights: &[f64],
+) -> (Vec<(DVec3, f64)>, Vec<bool>) {
     let count = points.len();
+    let mut all: Vec<(DVec3, f64)> = points
+        .iter()
+        .copied()
+        .zip(weights.iter().copied())
+        .collect();
     if count < 2 * BESIDE {
-        return (points.to_vec(), vec![1.0; count]);
+        return (all, vec![true; count]);
     }
-    let (mut all, mut weights) = (vec![points[0]], vec![1.0]);
+    let heavy = std::mem::take(&mut all);
+    all.push(heavy[0]);
+    let mut counts = vec![true];
     for index in 0..count - 1 {
         let first = index.saturating_sub(1).min(count - 2 * BESIDE);
         let near: Vec<usize> = (first..first + 2 * BESIDE).collect();
         let cubic = Cubic::new(points, &near, 0.5);
         let at = index - first;
         let middle = 0.5 * (cubic.places[at] + cubic.places[at + 1]);
-        all.extend([cubic.point(middle), points[index + 1]]);
-        weights.extend([LIGHT, 1.0]);
+        let [before, behind] = [heavy[index], heavy[index + 1]];
+        let light = LIGHT * 0.5 * (before.1 + behind.1);
+        all.extend([(cubic.point(middle), light), behind]);
+        counts.extend([false, true]);
     }
-    (all, weights)
+    (all, counts)
 }
 
 /// The distance of a point from the cubic through two neighbours on each side, `without` another one. `None`
 /// near the ends.
-fn left_out_distance(points: &[DVec2], index: usize, without: Option<usize>) -> Option<f64> {
+fn left_out_distance(points: &[DVec3], index: usize, without: Option<usize>) -> Option<f64> {
     let counts = |other: &usize| Some(*other) != without;
     let before: Vec<usize> = (0..index).rev().filter(counts).take(BESIDE).collect();
     let behind = (index + 1..points.len()).filter(counts).take(BESIDE);
@@ -145,15 +157,15 @@ fn left_out_distance(points: &[DVec2], index: usize, without: Option<usize>) -> 
 
 /// The cubic through four points at given parameters (Lagrange).
 struct Cubic {
-    points: [DVec2; 2 * BESIDE],
+    points: [DVec3; 2 * BESIDE],
     places: [f64; 2 * BESIDE],
 }
 
 impl Cubic {
     /// The parameters grow as a power of the chords.
-    fn new(points: &[DVec2], near: &[usize], power: f64) -> Self {
+    fn new(points: &[DVec3], near: &[usize], power: f64) -> Self {
         let mut cubic = Self {
-            points: [DVec2::ZERO; 2 * BESIDE],
+            points: [DVec3::ZERO; 2 * BESIDE],
             places: [0.0; 2 * BESIDE],
         };
         for (index, point) in near.iter().enumerate() {
@@ -166,7 +178,7 @@ impl Cubic {
         cubic
     }
 
-    fn point(&self, place: f64) -> DVec2 {
+    fn point(&self, place: f64) -> DVec3 {
         let weight = |own: usize| {
             let others = (0..self.places.len()).filter(|other| *other != own);
             let factors = others.map(|other| {
@@ -183,36 +195,44 @@ impl Cubic {
 mod tests {
     use super::*;
 
-    fn arc(count: usize) -> Vec<DVec2> {
+    fn arc(count: usize) -> Vec<DVec3> {
         let point = |index: usize| DVec2::from_angle(2.0 * index as f64 / count as f64);
-        (0..count).map(point).collect()
+        (0..count).map(|index| point(index).extend(0.0)).collect()
+    }
+
+    fn flat(points: &[DVec3]) -> Vec<DVec2> {
+        points.iter().map(|point| point.truncate()).collect()
     }
 
     #[test]
     fn a_point_beside_a_smooth_run_is_an_outlier_and_no_end_is() {
         let mut points = arc(40);
         assert!(outliers(&points).is_empty());
-        points[0] += DVec2::new(0.05, 0.0);
-        points[17] += DVec2::new(0.05, 0.05);
+        points[0] += DVec3::new(0.05, 0.0, 0.02);
+        points[17] += DVec3::new(0.05, 0.05, 0.0);
         assert_eq!(outliers(&points), [17]);
     }
 
     #[test]
     fn corners_are_sharp_points_and_not_tight_bends() {
-        assert!(corners(&arc(9)).is_empty());
+        assert!(corners(&flat(&arc(9))).is_empty());
         let mut points = arc(40);
-        let legs = (1..20).map(|it| points[39] + 0.05 * it as f64 * DVec2::X);
-        let legs: Vec<DVec2> = legs.collect();
+        let legs = (1..20).map(|it| points[39] + 0.05 * it as f64 * DVec3::X);
+        let legs: Vec<DVec3> = legs.collect();
         points.extend(legs);
-        assert_eq!(corners(&points), [39]);
+        assert_eq!(corners(&flat(&points)), [39]);
     }
 
     #[test]
     fn middles_lie_on_the_curve_of_the_points() {
-        let (points, weights) = with_middles(&arc(40));
-        assert_eq!((points.len(), weights.len()), (79, 79));
-        for point in points {
+        let mut weights = [1.0; 40];
+        weights[20] = 3.0;
+        let (points, counts) = with_middles(&arc(40), &weights);
+        assert_eq!((points.len(), counts.len()), (79, 79));
+        for ((point, _), _) in points.iter().zip(&counts).filter(|(_, counts)| !**counts) {
             assert!((point.length() - 1.0).abs() < 1e-5, "{point}");
         }
+        let near: Vec<f64> = points[38..42].iter().map(|(_, weight)| *weight).collect();
+        assert_eq!(near, [1.0, 2.0 * LIGHT, 3.0, 2.0 * LIGHT]);
     }
 }

@@ -3,15 +3,13 @@
 use glam::DVec2;
 
 use super::banded_rows::{BandMatrix, Layout, Rows};
+use super::mirror::Mirror;
 use super::monotone_runs::best_runs;
 use super::sign_runs::SignRuns;
 use super::slope_coefficients::SlopeTables;
 use super::splines::Splines;
 use crate::geometry::banded::difference_stencil;
 use crate::geometry::end::End;
-
-/// Points with less weight only guide the curve and do not count in errors.
-const COUNTING: f64 = 0.5;
 
 /// Vertices that a difference of legs reaches over.
 pub(super) const LEG_REACH: usize = 4;
@@ -53,14 +51,19 @@ pub(in crate::geometry) enum EndValue {
 pub(super) struct Data<'a> {
     pub(super) points: &'a [DVec2],
     pub(super) weights: &'a [f64],
+    /// Which points count in errors; the others only guide the curve.
+    pub(super) counts: &'a [bool],
     pub(super) ends: &'a [EndCondition],
+    /// The axis in which the curve is its own mirror image.
+    pub(super) mirror: Option<Mirror>,
 }
 
 impl Data<'_> {
     /// The weights, with 0 for those of points that do not count.
     pub(super) fn without_light(&self) -> Vec<f64> {
-        let counting = |weight: &f64| if *weight < COUNTING { 0.0 } else { *weight };
-        self.weights.iter().map(counting).collect()
+        let weights = self.weights.iter().zip(self.counts);
+        let weights = weights.map(|(weight, counts)| if *counts { *weight } else { 0.0 });
+        weights.collect()
     }
 }
 
@@ -118,18 +121,17 @@ impl<'a> Problem<'a> {
             .collect()
     }
 
-    /// The root of the mean squared distance and the largest distance of the points that count.
+    /// The root of the mean squared distance, weighed, and the largest distance of the points that count.
     pub(super) fn errors(&self, curve: &PlacedCurve) -> [f64; 2] {
         let offsets = self.offsets(curve);
-        let counting = offsets.iter().zip(self.data.weights);
-        let counting = counting.filter(|(_, weight)| **weight >= COUNTING);
-        let (mut sum, mut most, mut count) = (0.0, 0.0_f64, 0_usize);
-        for (offset, _) in counting {
-            sum += offset.length_squared();
+        let weighed = offsets.iter().zip(self.data.weights).zip(self.data.counts);
+        let (mut sum, mut most, mut all) = (0.0, 0.0_f64, 0.0);
+        for ((offset, weight), _) in weighed.filter(|(_, counts)| **counts) {
+            sum += weight * offset.length_squared();
             most = most.max(offset.length());
-            count += 1;
+            all += weight;
         }
-        [(sum / count.max(1) as f64).sqrt(), most]
+        [(sum / all.max(f64::MIN_POSITIVE)).sqrt(), most]
     }
 
     /// Refine the parameters of the points.
@@ -175,6 +177,9 @@ impl<'a> Problem<'a> {
             self.layout.add_squares(rows, data.weights, &mut matrix);
             self.layout.add_squares(differences, &fair, &mut matrix);
         }
+        if let Some(mirror) = data.mirror {
+            self.layout.symmetrise(mirror, &mut matrix);
+        }
         let trace: f64 = matrix.diagonal().sum();
         matrix.add_to_diagonal(REGULAR * trace);
         let factor = matrix.factor()?;
@@ -198,6 +203,9 @@ impl<'a> Problem<'a> {
                 self.layout
                     .add_transposed(differences, &unfair, &mut missing);
             }
+            if let Some(mirror) = data.mirror {
+                self.layout.symmetrise_right(mirror, &mut missing);
+            }
             for (value, correction) in solved.iter_mut().zip(factor.solve(&missing)) {
                 *value += correction;
             }
@@ -206,7 +214,10 @@ impl<'a> Problem<'a> {
             let unknown = self.layout.unknown(vertex);
             DVec2::new(solved[unknown], solved[unknown + 1])
         };
-        let vertices: Vec<DVec2> = (0..splines.count).map(vertex).collect();
+        let mut vertices: Vec<DVec2> = (0..splines.count).map(vertex).collect();
+        if let Some(mirror) = data.mirror {
+            mirror.symmetrise(&mut vertices);
+        }
         vertices
             .iter()
             .all(|vertex| vertex.is_finite())
@@ -255,16 +266,27 @@ impl<'a> Problem<'a> {
     /// The signs of the members of the slope that suit the curvature best, with so many changes: those of
     /// both beginnings, the better one first.
     pub(super) fn slope_runs(&self, vertices: &[DVec2], extrema: usize) -> [SignRuns; 2] {
-        let (places, curvatures, weights) = self.curvatures(vertices);
-        best_runs(&curvatures, &weights, extrema).map(|runs| {
+        let (places, mut curvatures, mut weights) = self.curvatures(vertices);
+        // Of mirror images the first half tells all, and in the middle there is an extremum.
+        let own = match self.data.mirror {
+            Some(_) => {
+                curvatures.truncate(places.len().div_ceil(2));
+                weights.truncate(places.len().div_ceil(2));
+                extrema / 2
+            }
+            None => extrema,
+        };
+        best_runs(&curvatures, &weights, own).map(|runs| {
             let turns = runs.turns.iter().map(|turn| {
                 let before = places[turn.saturating_sub(1).min(places.len() - 1)];
                 let turn = 0.5 * (before + places[(*turn).min(places.len() - 1)]);
                 self.slope_member(turn)
             });
+            let mut cuts: Vec<usize> = turns.collect();
+            cuts.resize(extrema, self.slope_places.len());
             let runs = SignRuns {
                 begins_positive: runs.begins_rising,
-                cuts: turns.collect(),
+                cuts,
             };
             self.spread_slopes(runs)
         })
@@ -309,13 +331,24 @@ impl<'a> Problem<'a> {
 
     /// Leave each inner run of slopes a segment's worth of members, so that it contains the end of a segment.
     pub(super) fn spread_slopes(&self, runs: SignRuns) -> SignRuns {
-        runs.spread(self.slope_places.len(), self.tables.slopes())
+        self.spread(runs, self.slope_places.len(), self.tables.slopes())
     }
 
     /// The same for the curvature.
     fn spread_bends(&self, runs: SignRuns) -> SignRuns {
         let members = self.tables.bends() * self.splines.segments();
-        runs.spread(members, self.tables.bends())
+        self.spread(runs, members, self.tables.bends())
+    }
+
+    fn spread(&self, mut runs: SignRuns, members: usize, least: usize) -> SignRuns {
+        if self.data.mirror.is_some() {
+            runs.symmetrise(members);
+        }
+        let mut runs = runs.spread(members, least);
+        if self.data.mirror.is_some() {
+            runs.symmetrise(members);
+        }
+        runs
     }
 
     /// Nearly the same start for another number of vertices.
@@ -331,7 +364,9 @@ impl<'a> Problem<'a> {
         let data = Data {
             points: &points,
             weights: &even,
+            counts: &[],
             ends: &[],
+            mirror: self.data.mirror,
         };
         let places: Vec<f64> = shares.iter().map(|share| share * end).collect();
         let share = end / old_end;

@@ -46,13 +46,16 @@ pub(in crate::geometry) fn refit(
     }
     let points: Vec<DVec2> = points.iter().map(|it| (*it - middle) / unit).collect();
     let weights = vec![1.0; points.len()];
+    let counts = vec![true; points.len()];
     let ends = ends(polygon, asked.kept, |point| (point - middle) / unit, unit);
     let tables = SlopeTables::new(polygon.degree());
     let task = Task {
         data: Data {
             points: &points,
             weights: &weights,
+            counts: &counts,
             ends: &ends,
+            mirror: None,
         },
         degree: polygon.degree(),
         periodic: polygon.is_periodic(),

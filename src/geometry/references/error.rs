@@ -122,6 +122,15 @@ pub enum ReferenceError {
         /// The point, counted from 0.
         index: usize,
     },
+    /// A weight is negative, not finite or too large, or not there.
+    #[error("point {index} has no weight that can be used: from 0 to 1e100")]
+    BadWeight {
+        /// The point, counted from 0.
+        index: usize,
+    },
+    /// No point has a weight above 0.
+    #[error("no point has a weight above 0")]
+    NoWeight,
 }
 
 /// A mistake in the text of a reference.

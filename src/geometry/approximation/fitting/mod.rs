@@ -1,7 +1,6 @@
-//! Float polygons through the middle of points: least squares with a fairness weight.
+//! Float polygons through the middle of points in space: least squares with a fairness weight.
 
 mod fit;
-mod outliers;
 mod point_list;
 mod smoothing;
 mod vertex_count;

@@ -1,38 +1,48 @@
-//! Points that follow each other along a curve, and which of them count.
+//! Points that follow each other along a curve, with light ones between them.
 
 use glam::DVec3;
 
+use crate::geometry::fitting::with_middles;
 use crate::geometry::vector;
 
-/// Neighbours on either side that a point is compared with.
-const NEIGHBOURS: usize = 3;
-
 /// The points of a fit.
-pub(super) struct PointList<'a> {
-    pub(super) points: &'a [DVec3],
-    /// Whether each point counts.
-    pub(super) counts: Vec<bool>,
+pub(super) struct PointList {
+    pub(super) points: Vec<DVec3>,
+    pub(super) weights: Vec<f64>,
+    /// Which of them are no light ones.
+    counts: Vec<bool>,
     /// The share of the chord length up to each point.
     pub(super) shares: Vec<f64>,
-    /// Whether all lie in the plane z = 0.
-    pub(super) planar: bool,
     /// The diagonal of their box.
     pub(super) size: f64,
 }
 
-impl<'a> PointList<'a> {
-    /// Take points, all of which count.
-    pub(super) fn new(points: &'a [DVec3]) -> Self {
+impl PointList {
+    /// Take points with their weights, and put light ones between them.
+    pub(super) fn new(points: &[DVec3], weights: &[f64]) -> Self {
         let (low, high) = vector::bounds(points);
-        let mut list = Self {
+        let (all, counts) = with_middles(points, weights);
+        let (points, weights): (Vec<DVec3>, Vec<f64>) = all.into_iter().unzip();
+        let shares = shares(&points);
+        Self {
             points,
-            counts: vec![true; points.len()],
-            shares: Vec::new(),
-            planar: points.iter().all(|point| point.z == 0.0),
+            weights,
+            counts,
+            shares,
             size: low.distance(high),
-        };
-        list.share_chords(f64::INFINITY);
-        list
+        }
+    }
+
+    /// Take points that count the same, at shares of the parameter.
+    pub(super) fn placed(points: Vec<DVec3>, shares: Vec<f64>) -> Self {
+        let (low, high) = vector::bounds(&points);
+        Self {
+            weights: vec![1.0; points.len()],
+            counts: vec![true; points.len()],
+            size: low.distance(high),
+            points,
+            shares,
+        }
     }
 
     /// The number of points that count.
@@ -40,72 +50,39 @@ impl<'a> PointList<'a> {
         self.counts.iter().filter(|counts| **counts).count()
     }
 
-    /// The mean distance of neighbours.
-    pub(super) fn mean_chord(&self) -> f64 {
-        let chords = self
-            .points
-            .windows(2)
-            .map(|chord| chord[0].distance(chord[1]));
-        chords.sum::<f64>() / self.points.len().saturating_sub(1).max(1) as f64
-    }
-
-    /// Share out the chord lengths of the points that count, where no chord counts for more than so many
-    /// times those about it.
-    pub(super) fn share_chords(&mut self, cap: f64) {
-        let counting = self.points.iter().zip(&self.counts);
-        let counting = counting.filter_map(|(point, counts)| counts.then_some(*point));
-        let counting: Vec<DVec3> = counting.collect();
-        let chords = counting.windows(2).map(|chord| chord[0].distance(chord[1]));
-        let chords: Vec<f64> = chords.collect();
-        let about = |index: usize| {
-            let last = (index + NEIGHBOURS + 1).min(chords.len());
-            median(
-                chords[index.saturating_sub(NEIGHBOURS)..last]
-                    .iter()
-                    .copied(),
-            )
-        };
-        let capped = |(index, chord): (usize, &f64)| match cap * about(index) {
-            most if most > 0.0 => chord.min(most),
-            _ => *chord,
-        };
-        let mut lengths = chords.iter().enumerate().map(capped);
-        let mut length = 0.0;
-        let mut first = true;
-        let lengths = self.counts.iter().map(|counts| {
-            if *counts && !std::mem::take(&mut first) {
-                length += lengths.next().unwrap_or_default();
-            }
-            length
+    /// The weights where curves of so many vertices can meet the points: light ones must not count then.
+    pub(super) fn weights_for(&self, count: usize) -> Vec<f64> {
+        let meets = count >= self.counting();
+        let weights = self.weights.iter().zip(&self.counts);
+        let weights = weights.map(|(weight, counts)| match !counts && meets {
+            true => 0.0,
+            false => *weight,
         });
-        let lengths: Vec<f64> = lengths.collect();
-        self.shares = lengths.into_iter().map(|it| it / length).collect();
+        weights.collect()
     }
 
-    /// List the points next to one, on either side, that count.
-    pub(super) fn neighbours(&self, index: usize) -> impl Iterator<Item = usize> {
-        let last = self.points.len() - 1;
-        let near = index.saturating_sub(NEIGHBOURS)..=(index + NEIGHBOURS).min(last);
-        near.filter(move |other| *other != index && self.counts[*other])
-    }
-
-    /// The root mean square and the largest length of the counted offsets.
+    /// The root mean square, weighed, and the largest length of the offsets of points that count.
     pub(super) fn errors(&self, offsets: &[DVec3]) -> [f64; 2] {
-        let kept = offsets.iter().zip(&self.counts);
-        let kept = kept.filter_map(|(offset, counts)| counts.then_some(offset.length()));
-        let (mut sum, mut largest, mut count) = (0.0, 0.0_f64, 0);
-        for distance in kept {
-            sum += distance * distance;
-            largest = largest.max(distance);
-            count += 1;
+        let weighed = offsets.iter().zip(&self.weights).zip(&self.counts);
+        let (mut sum, mut largest, mut all) = (0.0, 0.0_f64, 0.0);
+        for ((offset, weight), _) in weighed.filter(|(_, counts)| **counts) {
+            sum += weight * offset.length_squared();
+            largest = largest.max(offset.length());
+            all += weight;
         }
-        [(sum / count.max(1) as f64).sqrt(), largest]
+        [(sum / all.max(f64::MIN_POSITIVE)).sqrt(), largest]
     }
 }
 
-/// The median, of none 0.
-pub(super) fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+/// The share of the chord length up to each point.
+fn shares(points: &[DVec3]) -> Vec<f64> {
+    let mut length = 0.0;
+    let chords = points.windows(2).map(|chord| {
+        length += chord[0].distance(chord[1]);
+        length
+    });
+    let lengths: Vec<f64> = std::iter::once(0.0)
+        .chain(chords.collect::<Vec<f64>>())
+        .collect();
+    lengths.into_iter().map(|it| it / length).collect()
 }

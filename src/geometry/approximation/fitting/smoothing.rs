@@ -21,9 +21,9 @@ const FACTOR: f64 = 10.0;
 
 /// Minimise Σ |C(uᵢ) − pᵢ|² + λ Σ |Δ³P|² over the points that count.
 pub(super) struct Smoothing<'a> {
-    pub(super) list: &'a PointList<'a>,
+    pub(super) list: &'a PointList,
     pub(super) degree: usize,
-    progress: &'a Progress,
+    pub(super) progress: &'a Progress,
 }
 
 /// A solution for one fairness weight.
@@ -32,21 +32,17 @@ pub(super) struct Smoothed {
     pub(super) near: NearPoints,
     /// The weight, by points a vertex.
     pub(super) fairness: f64,
-    /// From each point to the curve.
-    pub(super) offsets: Vec<DVec3>,
-    /// The root of the mean square and the largest of the distances, outliers aside.
+    /// The root of the mean square and the largest of the distances.
     pub(super) errors: [f64; 2],
 }
 
 impl Smoothed {
     /// Measure a curve.
     pub(super) fn new(list: &PointList, near: NearPoints, fairness: f64) -> Self {
-        let offsets = near.offsets(list.points);
         Self {
-            errors: list.errors(&offsets),
+            errors: list.errors(&near.offsets(&list.points)),
             near,
             fairness,
-            offsets,
         }
     }
 }
@@ -88,7 +84,7 @@ impl<'a> Smoothing<'a> {
 
     /// The weight λ that belongs to one by points a vertex.
     pub(super) fn weight(&self, count: usize, fairness: f64) -> f64 {
-        fairness * self.list.points.len() as f64 / count as f64
+        fairness * self.list.counting() as f64 / count as f64
     }
 
     /// Solve for one fairness weight. The parameters begin as chord lengths and become those of the nearest
@@ -105,10 +101,10 @@ impl<'a> Smoothing<'a> {
                 return Err(FitError::Cancelled);
             }
             let from = before.as_ref().filter(|_| fairness == LEAST);
-            let exact = fairness == LEAST && count >= self.list.points.len();
+            let exact = fairness == LEAST && count >= self.list.counting();
             let falling = if exact { FACTOR.powi(-round) } else { 1.0 };
             let polygon = self.least_squares(count, fairness * falling, &places, from)?;
-            let near = NearPoints::new(polygon, self.list.points, &places);
+            let near = NearPoints::new(polygon, &self.list.points, &places);
             round += 1;
             if round > ROUNDS {
                 return Ok(Smoothed::new(self.list, near, fairness));
@@ -129,12 +125,15 @@ impl<'a> Smoothing<'a> {
         let degree = self.degree;
         let last = count - degree - 1;
         let mut rows: Vec<(BandedRow, DVec3)> = Vec::new();
-        let counting = places.iter().zip(self.list.points).zip(&self.list.counts);
-        for ((u, point), _) in counting.filter(|(_, counts)| **counts) {
+        let weights = self.list.weights_for(count);
+        let weighed = places.iter().zip(&self.list.points).zip(weights);
+        for ((u, point), weight) in weighed.filter(|(_, weight)| *weight > 0.0) {
+            let root = weight.sqrt();
             let first = (u.floor() as usize).min(last);
             let basis: Vec<f64> = uniform_basis_derivative(degree, 0, u - first as f64);
+            let basis = basis.into_iter().map(|value| root * value).collect();
             let known = from.map_or(DVec3::ZERO, |from| from.point(*u));
-            rows.push((row(first, basis), *point - known));
+            rows.push((row(first, basis), root * (*point - known)));
         }
         let order = FAIR_ORDER.min(count - 1);
         let factor = self.weight(count, fairness).sqrt();
@@ -144,7 +143,7 @@ impl<'a> Smoothing<'a> {
             rows.push((row(first, entries), DVec3::ZERO));
         }
         let mut vertices = from.map_or(vec![DVec3::ZERO; count], |from| from.vertices().to_vec());
-        for axis in 0..if self.list.planar { 2 } else { 3 } {
+        for axis in 0..3 {
             let rows = rows.iter().map(|(row, right)| BandedRow {
                 right: right[axis],
                 ..row.clone()

@@ -1,0 +1,92 @@
+//! Points as they count in a fit.
+
+use glam::DVec3;
+
+use super::neighbours::{noise, outliers};
+
+/// Points that count, how much each does, and what is known of the others.
+pub(in crate::geometry) struct CountedPoints {
+    /// Those that count, without repeated ones.
+    pub(in crate::geometry) points: Vec<DVec3>,
+    /// The weight of each, 1 on average.
+    pub(in crate::geometry) weights: Vec<f64>,
+    /// The numbers of those that do not count, from 0 among all.
+    pub(in crate::geometry) outliers: Vec<usize>,
+    /// The numbers of those that repeat the one before.
+    pub(in crate::geometry) repeated: Vec<usize>,
+    /// The estimated standard deviation of the noise.
+    pub(in crate::geometry) noise: f64,
+}
+
+impl CountedPoints {
+    /// Tell which points count: all but repeated ones, outliers and those of weight 0.
+    ///
+    /// `closes`: the last point may repeat the first. `left_out`: the outliers; `None` for isolated points that
+    /// stand out. `weights`: one a point; `None` if all count the same.
+    pub(in crate::geometry) fn new(
+        points: &[DVec3],
+        closes: bool,
+        left_out: Option<&[usize]>,
+        weights: Option<&[f64]>,
+    ) -> Self {
+        let mut repeated: Vec<usize> = (1..points.len())
+            .filter(|index| points[*index] == points[index - 1])
+            .collect();
+        let closes = closes && points.len() > 1 && points.first() == points.last();
+        if closes && repeated.last() != Some(&(points.len() - 1)) {
+            repeated.push(points.len() - 1);
+        }
+        let is_new = |index: &usize| repeated.binary_search(index).is_err();
+        let numbers: Vec<usize> = (0..points.len()).filter(is_new).collect();
+        let differing: Vec<DVec3> = numbers.iter().map(|number| points[*number]).collect();
+        let weight = |number: usize| match weights {
+            Some(weights) => weights.get(number).copied().unwrap_or(0.0),
+            None => 1.0,
+        };
+        let mut left_out: Vec<usize> = match left_out {
+            None => outliers(&differing)
+                .into_iter()
+                .map(|it| numbers[it])
+                .collect(),
+            Some(given) => numbers
+                .iter()
+                .copied()
+                .filter(|it| given.contains(it))
+                .collect(),
+        };
+        left_out.extend(numbers.iter().filter(|number| weight(**number) == 0.0));
+        left_out.sort_unstable();
+        left_out.dedup();
+        let counts = |number: &usize| left_out.binary_search(number).is_err();
+        let counting: Vec<usize> = numbers.into_iter().filter(counts).collect();
+        let weights: Vec<f64> = counting.iter().map(|number| weight(*number)).collect();
+        let mean = weights.iter().sum::<f64>() / weights.len().max(1) as f64;
+        Self {
+            points: counting.into_iter().map(|number| points[number]).collect(),
+            weights: weights.into_iter().map(|weight| weight / mean).collect(),
+            outliers: left_out,
+            repeated,
+            noise: noise(&differing),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn repeated_points_outliers_and_those_without_weight_do_not_count() {
+        let points: Vec<DVec3> = [0.0, 1.0, 1.0, 2.0, 3.0, 4.0, 0.0]
+            .iter()
+            .map(|x| DVec3::X * *x)
+            .collect();
+        let weights = [2.0, 4.0, 9.0, 0.0, 6.0, 4.0, 1.0];
+        let found = CountedPoints::new(&points, true, Some(&[0]), Some(&weights));
+        assert_eq!((found.repeated, found.outliers), (vec![2, 6], vec![0, 3]));
+        let places: Vec<f64> = found.points.iter().map(|point| point.x).collect();
+        assert_eq!(places, [1.0, 3.0, 4.0]);
+        assert_eq!(found.weights.iter().sum::<f64>(), 3.0);
+        assert_eq!(found.weights[1], 1.5 * found.weights[0]);
+    }
+}
