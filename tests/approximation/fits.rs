@@ -338,6 +338,44 @@ fn zeros_of_the_torsion_are_as_asked_for_or_missed() {
     assert!(reached >= 1);
 }
 
+/// Of many points some are looked at first; figures and errors are those of all.
+#[test]
+fn many_points_are_fitted_as_near_as_their_noise() {
+    let mut random = Random(11);
+    for (text, periodic, extrema) in [
+        ("ellipse:a=3,b=1.5,from=0.7,to=4", false, 2),
+        ("ellipse:a=3,b=1.5,from=0,to=6.281", true, 4),
+    ] {
+        let (points, off) = noisy(text, 4000, 0.002, &mut random);
+        let flat: Vec<_> = points.iter().map(|point| point.truncate()).collect();
+        for extrema in [Extrema::Fewest, Extrema::Exactly(extrema)] {
+            let asked = PlaneFit {
+                degree: 5,
+                periodic,
+                extrema,
+                ..PlaneFit::default()
+            };
+            let found = fit_plane(&flat, &asked, &Progress::default()).expect("a curve");
+            let what = format!("{text} {extrema:?}: {} extrema", found.extrema);
+            assert!(
+                found.holds && found.rms < BY_NOISE * off,
+                "{what}: {} {off}",
+                found.rms
+            );
+            assert!(found.deviation <= found.tolerance, "{what}");
+            let distances = points
+                .iter()
+                .map(|point| found.polygon.nearest(*point).distance);
+            let (sum, most) = distances.fold((0.0, 0.0_f64), |(sum, most), it| {
+                (sum + it * it, most.max(it))
+            });
+            let rms = (sum / points.len() as f64).sqrt();
+            assert!((found.rms - rms).abs() < 1e-9 * rms, "{what}: {rms}");
+            assert!((found.largest - most).abs() < 1e-9 * most, "{what}: {most}");
+        }
+    }
+}
+
 #[test]
 fn points_that_make_no_curve_are_refused() {
     let fit =

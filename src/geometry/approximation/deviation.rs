@@ -75,8 +75,8 @@ impl MeasuredDeviation {
         let sampled = sides.both_ways(progress)?;
         let wanted = Wanted::Tight {
             found: sampled.largest,
-            there: &|u| sides.from_here(u).1,
-            here: &|t| sides.from_there(t).1,
+            there: &|u| sides.off_there(u).1,
+            here: &|t| sides.off_here(t).1,
         };
         let Some(bound) = Bound::of(polygon, curve, parameter, wanted) else {
             return Ok(sampled);
@@ -185,13 +185,13 @@ impl<'a> Sides<'a> {
     }
 
     /// The distance of the polygon's curve at u from the other one, and the parameter t there.
-    fn from_here(&self, u: f64) -> (f64, f64) {
+    fn off_there(&self, u: f64) -> (f64, f64) {
         self.there
             .nearest(self.polygon.point(u), (self.parameter)(u))
     }
 
     /// The distance of the other curve at t from the polygon's, and the parameter u there.
-    fn from_there(&self, t: f64) -> (f64, f64) {
+    fn off_here(&self, t: f64) -> (f64, f64) {
         let after = self.places.partition_point(|[_, place]| *place < t);
         let near = self.places.get(after).or(self.places.last());
         let point = self.curve.derivatives(t, 0)[0];
@@ -201,7 +201,7 @@ impl<'a> Sides<'a> {
     /// Measure how far the polygon's curve is from the other one.
     fn one_way(&self, progress: &Progress) -> Result<MeasuredDeviation, ApproximationError> {
         let places: Vec<f64> = self.places.iter().map(|[u, _]| *u).collect();
-        let distance = |u: f64| self.from_here(u).0;
+        let distance = |u: f64| self.off_there(u).0;
         let samples = Samples::new(&places, &distance, progress)?;
         let (u, largest) = samples.largest(0.0, progress)?;
         Ok(MeasuredDeviation {
@@ -209,7 +209,7 @@ impl<'a> Sides<'a> {
             bounded: false,
             found: largest,
             u,
-            t: self.from_here(u).1,
+            t: self.off_there(u).1,
             mean: mean(self.polygon, &samples.distances),
         })
     }
@@ -218,14 +218,14 @@ impl<'a> Sides<'a> {
     fn both_ways(&self, progress: &Progress) -> Result<MeasuredDeviation, ApproximationError> {
         let here = self.one_way(progress)?;
         let places: Vec<f64> = self.places.iter().map(|[_, t]| *t).collect();
-        let distance = |t: f64| self.from_there(t).0;
+        let distance = |t: f64| self.off_here(t).0;
         let samples = Samples::new(&places, &distance, progress)?;
         let (t, largest) = samples.largest(here.largest, progress)?;
         Ok(match largest > here.largest {
             true => MeasuredDeviation {
                 largest,
                 found: largest,
-                u: self.from_there(t).1,
+                u: self.off_here(t).1,
                 t,
                 ..here
             },

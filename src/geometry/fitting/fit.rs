@@ -19,9 +19,14 @@ use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::nearest::refined_parameter;
 use crate::geometry::progress::Progress;
 
-/// Without a tolerance, the one that counts: a share of the size, or so many times the noise.
+/// Without a tolerance, the one that counts: a share of the size, or so many times the noise, or what the largest of
+/// many normal errors is.
 const NEAR: f64 = 5e-4;
 const NOISE: f64 = 3.0;
+
+/// Of more points than the first number about as many as the second are looked at while a fit is searched for.
+const MANY: usize = 1500;
+const ENOUGH: usize = 500;
 
 /// The most vertices without a wish, without and with a tolerance, and the points that each of them stands for at
 /// least.
@@ -164,9 +169,11 @@ pub fn fit_plane(
     asked: &PlaneFit,
     progress: &Progress,
 ) -> Result<Fitted, FitError> {
-    let prepared = Prepared::new(points, asked)?;
+    let whole = Prepared::new(points, asked)?;
+    let thinned = whole.thinned(asked);
     let fit = Fit {
-        prepared: &prepared,
+        prepared: thinned.as_ref().unwrap_or(&whole),
+        whole: &whole,
         asked,
         progress,
         tables: SlopeTables::new(asked.degree),
@@ -175,7 +182,7 @@ pub fn fit_plane(
     if progress.is_cancelled() && !progress.is_late() {
         return Err(FitError::Cancelled);
     }
-    let level = level.or_else(|| fit.task(0, None).smoothed());
+    let level = level.or_else(|| fit.task_of_all(0, None).smoothed());
     let level = level.ok_or(FitError::NotFound)?;
     let fitted = fit.finished(points, &level)?;
     Ok(Fitted {
@@ -247,7 +254,10 @@ impl Prepared {
         let counting: Vec<DVec2> = counted.points.iter().map(|it| it.truncate()).collect();
         let tolerance = match asked.tolerance {
             Some(tolerance) => tolerance / unit,
-            None => (NEAR * size(&counting)).max(NOISE * noise),
+            None => {
+                let normal = (2.0 * (found as f64).ln()).sqrt();
+                (NEAR * size(&counting)).max(NOISE.max(normal) * noise)
+            }
         };
         let ends = ends(&counting, asked, unit);
         let (all, counts) = match asked.periodic {
@@ -274,6 +284,83 @@ impl Prepared {
             repeated: counted.repeated,
             ends,
         })
+    }
+}
+
+impl Prepared {
+    /// About [`ENOUGH`] of the points, evenly, with the first and the last one, if there are many.
+    fn thinned(&self, asked: &PlaneFit) -> Option<Self> {
+        if self.counting <= MANY {
+            return None;
+        }
+        let heavy = self.points.iter().zip(&self.weights).zip(&self.counts);
+        let heavy = heavy.filter(|(_, counts)| **counts);
+        let heavy: Vec<(DVec3, f64)> = heavy
+            .map(|((at, weight), _)| (at.extend(0.0), *weight))
+            .collect();
+        let numbers = self.kept();
+        let kept = numbers.iter().filter_map(|number| heavy.get(*number));
+        let kept: Vec<(DVec3, f64)> = kept.copied().collect();
+        let counting = kept.len();
+        let (points, weights): (Vec<DVec3>, Vec<f64>) = kept.iter().copied().unzip();
+        let (all, counts) = match asked.periodic {
+            true => (kept, vec![true; counting]),
+            false => with_middles(&points, &weights),
+        };
+        let all = all.into_iter();
+        let (points, weights) = all
+            .map(|(point, weight)| (point.truncate(), weight))
+            .unzip();
+        Some(Self {
+            points,
+            weights,
+            counts,
+            counting,
+            outliers: self.outliers.clone(),
+            repeated: self.repeated.clone(),
+            ends: self.ends.clone(),
+            ..*self
+        })
+    }
+
+    /// The numbers of the points that count which are kept of many.
+    fn kept(&self) -> Vec<usize> {
+        let last = self.counting.saturating_sub(1);
+        let step = last.div_ceil(ENOUGH).max(1);
+        let mut kept: Vec<usize> = (0..last).step_by(step).collect();
+        kept.push(last);
+        kept
+    }
+
+    /// The parameters of all points by those of some of them.
+    fn places_of_all(&self, thinned: &Self, places: &[f64], end: f64, periodic: bool) -> Vec<f64> {
+        let heavy = places.iter().zip(&thinned.counts);
+        let heavy = heavy.filter_map(|(place, counts)| counts.then_some(*place));
+        let mut known: Vec<(f64, f64)> =
+            self.kept().iter().map(|it| *it as f64).zip(heavy).collect();
+        if let (true, Some((_, first))) = (periodic, known.first().copied()) {
+            known.push((self.counting as f64, first + end));
+        }
+        let mut before = 0;
+        let place = |counts: &bool| {
+            // Light points lie between two others.
+            let at = if *counts {
+                before as f64
+            } else {
+                before as f64 - 0.5
+            };
+            before += usize::from(*counts);
+            let behind = known.partition_point(|(own, _)| *own <= at);
+            let behind = behind.clamp(1, known.len() - 1);
+            let ((a, from), (b, to)) = (known[behind - 1], known[behind]);
+            let to = if periodic && to < from { to + end } else { to };
+            let place = from + (to - from) * (at - a) / (b - a);
+            match periodic {
+                true => place.rem_euclid(end),
+                false => place.clamp(0.0, end),
+            }
+        };
+        self.counts.iter().map(place).collect()
     }
 }
 
@@ -358,7 +445,10 @@ struct Searched {
 }
 
 struct Fit<'a> {
+    /// The points that are looked at in the search.
     prepared: &'a Prepared,
+    /// All points.
+    whole: &'a Prepared,
     asked: &'a PlaneFit,
     progress: &'a Progress,
     tables: SlopeTables,
@@ -366,7 +456,19 @@ struct Fit<'a> {
 
 impl Fit<'_> {
     fn task(&self, extrema: usize, tolerance: Option<f64>) -> Task<'_> {
-        let prepared = self.prepared;
+        self.task_on(self.prepared, extrema, tolerance)
+    }
+
+    fn task_of_all(&self, extrema: usize, tolerance: Option<f64>) -> Task<'_> {
+        self.task_on(self.whole, extrema, tolerance)
+    }
+
+    fn task_on<'b>(
+        &'b self,
+        prepared: &'b Prepared,
+        extrema: usize,
+        tolerance: Option<f64>,
+    ) -> Task<'b> {
         let most = MOST_VERTICES[usize::from(tolerance.is_some())];
         let half = (prepared.counting / POINTS_A_VERTEX).min(most);
         let most = self.asked.most.unwrap_or(half);
@@ -388,6 +490,20 @@ impl Fit<'_> {
             tables: &self.tables,
             progress: self.progress,
         }
+    }
+
+    /// The fit to all points that is found from one to some of them.
+    fn refined(&self, level: Level) -> Level {
+        if std::ptr::eq(self.prepared, self.whole) {
+            return level;
+        }
+        let (end, periodic) = (level.splines.end(), self.asked.periodic);
+        let places = &level.start.curve.places;
+        let places = self
+            .whole
+            .places_of_all(self.prepared, places, end, periodic);
+        let extrema = level.start.slopes.cuts.len();
+        self.task_of_all(extrema, None).refined(level, places)
     }
 
     /// The best fit, what each number of extrema reaches, and the fewest that keep the tolerance where the number
@@ -417,7 +533,7 @@ impl Fit<'_> {
     /// The curve of least squares if it meets the points, as one with as many vertices as points or a straight
     /// line does, and has the features asked for.
     fn exact(&self) -> Option<Level> {
-        let mut level = self.task(0, None).smoothed()?;
+        let mut level = self.task_of_all(0, None).smoothed()?;
         if level.largest > EXACT || !self.prepared.ends.is_empty() {
             return None;
         }
@@ -447,11 +563,26 @@ impl Fit<'_> {
             self.asked.tolerance.map(|_| self.prepared.tolerance),
         );
         let levels = levels.levels(&[]);
-        let trade_off = self.trade_off(extrema, &levels);
-        (
-            self.chosen(levels, self.asked.tolerance.is_some()),
-            trade_off.into_iter().collect(),
-        )
+        let (level, trade_off) =
+            self.refined_choice(extrema, levels, self.asked.tolerance.is_some());
+        (level, trade_off.into_iter().collect())
+    }
+
+    /// The level chosen, fitted to all points, and what the number of extrema reaches.
+    fn refined_choice(
+        &self,
+        extrema: usize,
+        levels: Vec<Level>,
+        is_for_tolerance: bool,
+    ) -> (Option<Level>, Option<TradeOff>) {
+        if std::ptr::eq(self.prepared, self.whole) {
+            let trade_off = self.trade_off(extrema, &levels);
+            return (self.chosen(levels, is_for_tolerance), trade_off);
+        }
+        let level = self.chosen(levels, is_for_tolerance);
+        let level = level.map(|level| self.refined(level));
+        let trade_off = self.trade_off(extrema, level.as_slice());
+        (level, trade_off)
     }
 
     /// The fit with the fewest extrema that keeps the tolerance, or else the nearest.
@@ -510,8 +641,9 @@ impl Fit<'_> {
                 ..self.task(extrema, Some(tolerance))
             };
             let levels = task.levels(&fewer);
-            search.trade_off.extend(self.trade_off(extrema, &levels));
             fewer.extend(levels.last().cloned());
+            let (_, trade_off) = self.refined_choice(extrema, levels, true);
+            search.trade_off.extend(trade_off);
         }
     }
 
@@ -537,9 +669,9 @@ impl Fit<'_> {
         let last = near.flat_map(|(_, levels)| levels.iter().rev().take(RELEASED));
         let fewer: Vec<Level> = last.cloned().collect();
         let levels = self.task(extrema, Some(tolerance)).levels(&fewer);
-        search.trade_off.extend(self.trade_off(extrema, &levels));
         search.known.insert(extrema, levels.clone());
-        let found = self.chosen(levels, true);
+        let (found, trade_off) = self.refined_choice(extrema, levels, true);
+        search.trade_off.extend(trade_off);
         let distance =
             |level: &Option<Level>| level.as_ref().map_or(f64::INFINITY, |it| it.largest);
         let [now, before] = [distance(&found), distance(&search.best)];
@@ -601,7 +733,7 @@ impl Fit<'_> {
 
     /// Take a level back to where the points are, and measure it there.
     fn finished(&self, points: &[DVec2], level: &Level) -> Result<Fitted, FitError> {
-        let prepared = self.prepared;
+        let prepared = self.whole;
         let vertices = level.start.curve.vertices.iter();
         let vertices =
             vertices.map(|vertex| (prepared.unit * *vertex + prepared.middle).extend(0.0));
@@ -641,7 +773,7 @@ impl Fit<'_> {
 
     /// The distance of each point from the curve, looked for near the parameters of its neighbours.
     fn distances(&self, points: &[DVec2], level: &Level, polygon: &FloatPolygon) -> Vec<f64> {
-        let prepared = self.prepared;
+        let prepared = self.whole;
         let places = &level.start.curve.places;
         let end = polygon.segments() as f64;
         let mut known = 0;

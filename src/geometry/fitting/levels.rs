@@ -59,6 +59,9 @@ const FAR_LEVEL: usize = 3;
 const FAR: f64 = 8.0;
 const FAR_GAIN: f64 = 0.85;
 
+/// Steps to the nearest places of points whose places are known roughly.
+const PROJECTIONS: usize = 8;
+
 /// An arc between two points that is longer than so many times the chord and the offsets is a loop.
 const LOOP: f64 = 2.0;
 
@@ -236,6 +239,22 @@ impl<'a> Task<'a> {
             })
         });
         curves.min_by(|a, b| a.rms.total_cmp(&b.rms))
+    }
+
+    /// Fit a level to these points, from their parameters.
+    pub(super) fn refined(&self, level: Level, places: Vec<f64>) -> Level {
+        let problem = self.problem(level.splines.count);
+        let mut start = level.start.clone();
+        start.curve.places = places;
+        problem.project(&mut start.curve, PROJECTIONS);
+        let [rms, largest] = problem.errors(&start.curve);
+        let known = Level {
+            start: start.clone(),
+            rms,
+            largest,
+            ..level
+        };
+        known.or(Some(self.attempt(&problem, start, WEIGHED_STEPS)))
     }
 
     fn next_count(&self, count: usize) -> usize {
