@@ -1,8 +1,11 @@
-//! Progress and cancellation of a long computation.
+//! Progress and cancellation of a long computation, and the best it has found so far.
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
+
+use super::float_polygon::FloatPolygon;
 
 /// Share with a computation, which may run on another thread, how far it has come and whether its
 /// result is still wanted. Clones are handles of the same computation; one made by
@@ -14,6 +17,8 @@ pub struct Progress {
     deadline: Option<Instant>,
     /// The part of the whole work whose shares are told.
     part: Part,
+    /// Which of the curves of the result is searched for.
+    curve: usize,
 }
 
 /// A part of some work, from one share of it to another.
@@ -39,8 +44,19 @@ impl Part {
 #[derive(Debug, Default)]
 struct State {
     cancelled: AtomicBool,
+    /// Whether the best found so far will do.
+    stopped: AtomicBool,
     /// The bits of the share that is done.
     done: AtomicU64,
+    best: Mutex<Best>,
+}
+
+/// The best curves found so far, by their numbers in the result.
+#[derive(Debug, Default)]
+struct Best {
+    curves: BTreeMap<usize, FloatPolygon>,
+    /// Whether one was added since they were taken.
+    is_new: bool,
 }
 
 impl Progress {
@@ -85,6 +101,14 @@ impl Progress {
         }
     }
 
+    /// Watch the search for one of several curves of a result, by its number.
+    pub fn of_curve(&self, curve: usize) -> Self {
+        Self {
+            curve,
+            ..self.clone()
+        }
+    }
+
     /// Ask the computation to stop as soon as it can.
     pub fn cancel(&self) {
         self.shared.cancelled.store(true, Ordering::Relaxed);
@@ -95,10 +119,39 @@ impl Progress {
         self.shared.cancelled.load(Ordering::Relaxed) || self.is_late()
     }
 
+    /// Ask for the best found so far: the time of parts whose time is limited is up. The others go on.
+    pub fn stop(&self) {
+        self.shared.stopped.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the best found so far was asked for.
+    pub fn is_stopped(&self) -> bool {
+        self.shared.stopped.load(Ordering::Relaxed)
+    }
+
     /// Whether the time is up. What was found so far may still be wanted.
     pub fn is_late(&self) -> bool {
         self.deadline
-            .is_some_and(|deadline| Instant::now() >= deadline)
+            .is_some_and(|deadline| self.is_stopped() || Instant::now() >= deadline)
+    }
+
+    /// Show the best curve found so far to whoever watches.
+    pub fn show(&self, best: FloatPolygon) {
+        let mut shown = self.best();
+        shown.curves.insert(self.curve, best);
+        shown.is_new = true;
+    }
+
+    /// The best curves found so far, in the order of the result; `None` if they are those of the last call.
+    pub fn take_shown(&self) -> Option<Vec<FloatPolygon>> {
+        let mut shown = self.best();
+        let is_new = std::mem::take(&mut shown.is_new);
+        is_new.then(|| shown.curves.values().cloned().collect())
+    }
+
+    fn best(&self) -> MutexGuard<'_, Best> {
+        let best = self.shared.best.lock();
+        best.unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Tell which share of the work is done, from 0 to 1. What was told before stays if it was more.
@@ -136,6 +189,29 @@ mod tests {
         .expect("a thread that does not panic");
         assert!(here.is_cancelled());
         assert_eq!(here.done(), 0.75);
+    }
+
+    #[test]
+    fn stopping_ends_what_has_a_limited_time_and_nothing_else() {
+        let all = Progress::default();
+        let search = all.limited(Duration::from_secs(1 << 20));
+        assert!(!search.is_late());
+        all.stop();
+        assert!(all.is_stopped() && search.is_late() && search.is_cancelled());
+        assert!(!all.is_cancelled() && !search.without_limit().is_cancelled());
+    }
+
+    #[test]
+    fn the_best_curves_are_taken_once_in_the_order_of_the_result() {
+        let line = |y: f64| FloatPolygon::planar(1, &[(0.0, y), (1.0, y)]).expect("a polygon");
+        let all = Progress::default();
+        assert_eq!(all.take_shown(), None);
+        all.of_curve(1).show(line(1.0));
+        let first = all.of_curve(0).limited(Duration::ZERO);
+        first.show(line(5.0));
+        first.show(line(0.0));
+        assert_eq!(all.take_shown(), Some(vec![line(0.0), line(1.0)]));
+        assert_eq!(all.take_shown(), None);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
-use super::time_limit::{TIME_LIMIT, limited, seconds};
+use super::time_limit::{TIME_LIMIT, limited, why_ended};
 use super::values::Values;
 use crate::document::{Curve, CurveId, Edit, ParameterSpan};
 use crate::geometry::approximation::{
@@ -241,7 +241,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     };
     let (found, alternatives) = match found {
         Err(OperationError::Approximation(ApproximationError::Cancelled)) => {
-            return Ok(nothing_in_time(id, values));
+            return Ok(nothing_in_time(id, &why_ended(&search, values)));
         }
         found => found?,
     };
@@ -274,7 +274,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         }
     };
     let mut remarks = outcome.remarks.clone();
-    remarks.extend(remark_on_time(values, &found, tolerance));
+    let why = why_ended(&search, values);
+    remarks.extend(remark_on_time(&why, &found, tolerance));
     remarks.extend(alternatives);
     remarks.extend(remark_on_levels(values, &found));
     remarks.extend(remark_on_corrections(&found));
@@ -297,28 +298,24 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
 }
 
 /// The outcome of a search whose time was up before it found anything.
-fn nothing_in_time(id: CurveId, values: &Values) -> Outcome {
-    let seconds = seconds(values);
+fn nothing_in_time(id: CurveId, why: &str) -> Outcome {
     Outcome {
         requirements: vec![(id, vec![Requirement::Failed { left: None }])],
         remarks: vec![format!(
-            "The time of {seconds} s was up before a curve was found: allow more, or choose a part of the reference"
+            "{why} before a curve was found: allow more, or choose a part of the reference"
         )],
         ..Outcome::unchanged(Deviation::Unmeasured)
     }
 }
 
 /// Say that the time was up before the search came to its end.
-fn remark_on_time(values: &Values, found: &Approximated, tolerance: Option<f64>) -> Option<String> {
-    let seconds = seconds(values);
+fn remark_on_time(why: &str, found: &Approximated, tolerance: Option<f64>) -> Option<String> {
     let is_reached = tolerance.is_some_and(|tolerance| found.meets(tolerance));
     let what = match is_reached {
         true => "fewer vertices may do",
         false => "this is the best found so far",
     };
-    found
-        .stopped
-        .then(|| format!("The time of {seconds} s was up: {what}"))
+    found.stopped.then(|| format!("{why}: {what}"))
 }
 
 /// The parameters of a curve with those of its approximation: at the approximation's knots the nearest points, as far

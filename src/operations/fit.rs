@@ -11,14 +11,17 @@ use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
 use super::targets::{SHARE_OF_SIZE, place_of};
-use super::time_limit::{TIME_IS_UP, TIME_LIMIT, limited};
+use super::time_limit::{TIME_LIMIT, best_so_far, limited};
+use super::value::Value;
 use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{self, FitRequest, fit_points};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::counts::CountRequest;
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::fitting::{Extrema, FitError, Fitted, Mirror, PlaneFit, corners, fit_plane};
+use crate::geometry::fitting::{
+    CountedPoints, Extrema, FitError, Fitted, Mirror, PlaneFit, corners, fit_plane,
+};
 use crate::geometry::parameters::{OutOfRange, Quantity};
 use crate::geometry::{End, MAX_DEGREE, Progress, counted, significant};
 
@@ -204,7 +207,7 @@ pub static OPERATION: Operation = Operation {
 };
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
-    if input.points().iter().any(|point| point.z != 0.0) {
+    if is_in_space(input) {
         return in_space(input, values, progress);
     }
     let points = input.points().iter().map(|point| point.truncate());
@@ -218,29 +221,100 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         true => Vec::new(),
         false => corners(&points),
     };
-    let bounds = match values.switch(&SPLIT) {
-        true => [&[0], &corners[..], &[points.len().saturating_sub(1)]].concat(),
-        false => vec![0, points.len().saturating_sub(1)],
-    };
-    let pieces = bounds.windows(2).map(|bounds| Piece {
-        first: bounds[0],
-        last: bounds[1],
-        is_outer: [bounds[0] == 0, bounds[1] + 1 == points.len()],
-    });
-    let pieces: Vec<Piece> = pieces.collect();
+    let pieces = pieces(points.len(), &corners, values);
     let fitted = pieces
         .iter()
-        .map(|piece| piece.fit(&points, &asked, &progress));
+        .enumerate()
+        .map(|(index, piece)| piece.fit(&points, &asked, &progress.of_curve(index)));
     let (requests, fitted): (Vec<PlaneFit>, Vec<Fitted>) =
         fitted.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
     let requirements = pieces.iter().zip(&requests).zip(&fitted);
     let requirements =
         requirements.map(|((piece, asked), found)| piece.requirements(&points, asked, found));
     let ids = input.document().next_ids();
+    let mut outcome = outcome(input, values, &asked, &fitted, &corners);
+    if fitted.iter().any(|found| found.stopped) {
+        outcome.remarks.push(best_so_far(&progress, values));
+    }
     Ok(Outcome {
         requirements: ids.zip(requirements).collect(),
-        ..outcome(input, values, &asked, &fitted, &corners)
+        ..outcome
     })
+}
+
+/// List the points that a fit with some values leaves out, by their numbers from 0.
+///
+/// # Errors
+/// [`OperationError`] if the values do not suit the points.
+pub fn left_out(input: &Operands, values: &Values) -> Result<Vec<usize>, OperationError> {
+    let points = input.points();
+    let asked = asked(points.len(), values)?;
+    let in_space = is_in_space(input);
+    let flat: Vec<DVec2> = points.iter().map(|point| point.truncate()).collect();
+    let corners = match in_space || asked.periodic || !values.switch(&SPLIT) {
+        true => Vec::new(),
+        false => corners(&flat),
+    };
+    let pieces = pieces(points.len(), &corners, values).into_iter();
+    let left_out = pieces.flat_map(|piece| {
+        let own = &points[piece.first..=piece.last];
+        let given = asked.outliers.as_ref().map(|numbers| piece.own(numbers));
+        let weights = input.weights().map(|weights| piece.own_weights(weights));
+        let closes = asked.periodic && !in_space;
+        let counted = CountedPoints::new(own, closes, given.as_deref(), weights.as_deref());
+        let left_out = counted.outliers.into_iter();
+        left_out.map(move |number| number + piece.first)
+    });
+    Ok(left_out.collect())
+}
+
+/// The parameter with the value that leaves a point out too, or takes it back: a list of those left out. Points of
+/// weight 0 need not be in it.
+///
+/// # Errors
+/// As [`left_out`].
+pub fn with_point_switched(
+    input: &Operands,
+    values: &Values,
+    point: usize,
+) -> Result<(&'static str, Value), OperationError> {
+    let mut numbers = left_out(input, values)?;
+    numbers.retain(|number| *number == point || counts(input, *number));
+    match numbers.binary_search(&point) {
+        Ok(place) => drop(numbers.remove(place)),
+        Err(place) => numbers.insert(place, point),
+    }
+    let keep = [ISOLATED, KEEP].iter().position(|word| *word == KEEP);
+    let value = match keep.filter(|_| numbers.is_empty()) {
+        Some(keep) => Value::Choice(keep),
+        None => Value::List(numbers.into_iter().map(|number| number as f64).collect()),
+    };
+    Ok((OUTLIERS.name, value))
+}
+
+/// Whether a point counts by its weight, if it has one.
+pub fn counts(input: &Operands, point: usize) -> bool {
+    let weight = input.weights().and_then(|weights| weights.get(point));
+    weight.is_none_or(|weight| *weight != 0.0)
+}
+
+fn is_in_space(input: &Operands) -> bool {
+    input.points().iter().any(|point| point.z != 0.0)
+}
+
+/// The pieces of so many points, which are split at corners if the values say so.
+fn pieces(points: usize, corners: &[usize], values: &Values) -> Vec<Piece> {
+    let last = points.saturating_sub(1);
+    let bounds = match values.switch(&SPLIT) {
+        true => [&[0], corners, &[last]].concat(),
+        false => vec![0, last],
+    };
+    let pieces = bounds.windows(2).map(|bounds| Piece {
+        first: bounds[0],
+        last: bounds[1],
+        is_outer: [bounds[0] == 0, bounds[1] == last],
+    });
+    pieces.collect()
 }
 
 /// Require numbers of features, if there are any asked for.
@@ -270,24 +344,15 @@ impl Piece {
     ) -> Result<(PlaneFit, Fitted), OperationError> {
         let ends = [0, 1].map(|end| !self.is_outer[end] || asked.exact_ends[end]);
         let outer = self.is_outer;
-        let own = |numbers: &Vec<usize>| {
-            let inside = numbers
-                .iter()
-                .filter(|it| (self.first..=self.last).contains(it));
-            inside.map(|number| number - self.first).collect()
-        };
         let asked = PlaneFit {
             exact_ends: ends,
             directions: [0, 1].map(|end| asked.directions[end].filter(|_| outer[end])),
             curvatures: [0, 1].map(|end| asked.curvatures[end].filter(|_| outer[end])),
-            outliers: asked.outliers.as_ref().map(own),
-            weights: asked.weights.as_ref().map(|weights| {
-                let own = weights
-                    .iter()
-                    .skip(self.first)
-                    .take(self.last + 1 - self.first);
-                own.copied().collect()
-            }),
+            outliers: asked.outliers.as_ref().map(|numbers| self.own(numbers)),
+            weights: asked
+                .weights
+                .as_ref()
+                .map(|weights| self.own_weights(weights)),
             ..asked.clone()
         };
         let found = fit_plane(&points[self.first..=self.last], &asked, progress);
@@ -299,6 +364,19 @@ impl Piece {
             *repeated += self.first;
         }
         Ok((asked, found))
+    }
+
+    /// Those of some points, counted from the first of the piece.
+    fn own(&self, numbers: &[usize]) -> Vec<usize> {
+        let inside = numbers
+            .iter()
+            .filter(|it| (self.first..=self.last).contains(it));
+        inside.map(|number| number - self.first).collect()
+    }
+
+    fn own_weights(&self, weights: &[f64]) -> Vec<f64> {
+        let own = weights.iter().skip(self.first);
+        own.take(self.last + 1 - self.first).copied().collect()
     }
 
     /// What the curve must hold: its features, its ends and the tolerance.
@@ -550,9 +628,6 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
         }
     }
     remarks.extend(remark_on_noise(asked.tolerance, found.noise));
-    if found.stopped {
-        remarks.push(TIME_IS_UP.to_owned());
-    }
     remarks
 }
 
@@ -599,7 +674,12 @@ fn in_space(
         outliers: asked.outliers,
         weights: input.weights().map(<[f64]>::to_vec),
     };
-    let found = fit_points(points, &asked, &limited(progress, values)).map_err(told)?;
+    let progress = limited(progress, values);
+    let found = fit_points(points, &asked, &progress).map_err(told)?;
+    let mut remarks = remarks_in_space(input, values, &asked, &found);
+    if found.stopped {
+        remarks.push(best_so_far(&progress, values));
+    }
     let outliers: Vec<usize> = found.outliers.iter().map(|(index, _)| *index).collect();
     let features = features(asked.extrema, asked.torsion_zeros);
     let limit = asked.tolerance.map(|most| Requirement::Limit {
@@ -622,7 +702,7 @@ fn in_space(
             Figure::count("outliers", "Outliers", outliers.len()),
             Figure::indices("outlying_points", "Outlying points", &outliers),
         ],
-        remarks: remarks_in_space(input, values, &asked, &found),
+        remarks,
         annotations: marked.map(|point| Annotation::Point(*point)).collect(),
         ..Outcome::unchanged(Deviation::FromPoints(found.deviation))
     })
@@ -660,9 +740,6 @@ fn remarks_in_space(
         ));
     }
     remarks.extend(remark_on_noise(asked.tolerance, found.noise));
-    if found.stopped {
-        remarks.push(TIME_IS_UP.to_owned());
-    }
     let is_given = |parameter: &&&Parameter| {
         let default = parameter.default(input).ok();
         default.as_ref() != Some(values.get(parameter))

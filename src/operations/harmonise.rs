@@ -10,7 +10,7 @@ use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, Meaning, Parameter};
-use super::time_limit::{TIME_IS_UP, TIME_LIMIT, limited};
+use super::time_limit::{TIME_LIMIT, best_so_far, limited};
 use super::values::Values;
 use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
 use crate::geometry::features::Features;
@@ -186,7 +186,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     outcome.requirements = vec![(id, found.requirements.clone())];
     if !found.reached {
         outcome.remarks = vec![why_not(&found, &harmony)];
-        let late = progress.is_late().then(|| TIME_IS_UP.to_owned());
+        let late = progress.is_late();
+        let late = late.then(|| best_so_far(&progress, values));
         outcome.remarks.extend(late);
     }
     if found.refitted {

@@ -1,11 +1,15 @@
-//! The time that a search has.
+//! The time that a search has, and what it has found meanwhile.
 
 use std::time::Duration;
 
 use super::lists::given;
+use super::operands::Operands;
+use super::operation::Operation;
+use super::outcome::{Deviation, Outcome};
 use super::parameter::{Kind, POSITIVE, Parameter};
 use super::values::Values;
-use crate::geometry::Progress;
+use crate::document::{Curve, Edit};
+use crate::geometry::{FloatPolygon, Progress};
 
 /// The time without a wish, in seconds.
 const TIME: f64 = 10.0;
@@ -18,15 +22,70 @@ pub(super) const TIME_LIMIT: Parameter = Parameter {
     kind: Kind::optional_number(POSITIVE, |_| "10"),
 };
 
-/// What is said of a search that ended so.
-pub(super) const TIME_IS_UP: &str = "The time was up: this is the best found so far";
+/// More time than any search takes. Without any limit a search could not be stopped.
+const LONGEST: Duration = Duration::from_secs(u32::MAX as u64);
 
 /// Give a search the time that the values allow.
 pub(super) fn limited(progress: &Progress, values: &Values) -> Progress {
-    progress.limited(Duration::try_from_secs_f64(seconds(values)).unwrap_or(Duration::MAX))
+    let limit = Duration::try_from_secs_f64(seconds(values));
+    progress.limited(limit.map_or(LONGEST, |limit| limit.min(LONGEST)))
+}
+
+/// Tell why a search ended before its end.
+pub(super) fn why_ended(progress: &Progress, values: &Values) -> String {
+    match progress.is_stopped() {
+        true => "Stopped".to_owned(),
+        false => format!("The time of {} s was up", seconds(values)),
+    }
+}
+
+/// Tell that a search ended before its end, with what it had found.
+pub(super) fn best_so_far(progress: &Progress, values: &Values) -> String {
+    let why = why_ended(progress, values);
+    format!("{why}: this is the best found so far")
 }
 
 /// Tell the seconds that a search has.
-pub(super) fn seconds(values: &Values) -> f64 {
+fn seconds(values: &Values) -> f64 {
     given(values, &TIME_LIMIT).unwrap_or(TIME)
+}
+
+impl Operation {
+    /// Whether the operation searches for a limited time, so that it can be stopped with the best found so far.
+    pub fn can_be_stopped(&self) -> bool {
+        let mut names = self.parameters.iter().map(|it| it.name);
+        names.any(|name| name == TIME_LIMIT.name)
+    }
+
+    /// The edits that show the best curves found so far: in place of the curve that is worked on, or beside it.
+    pub fn edits_of_best(
+        &self,
+        input: &Operands,
+        values: &Values,
+        best: Vec<FloatPolygon>,
+    ) -> Vec<Edit> {
+        let from_curve = values.given_reference().is_none();
+        match (input.curve().ok().filter(|_| from_curve), &best[..]) {
+            (Some((id, curve)), [only]) if has_same_vertices(&curve.polygon, only) => {
+                Outcome::reshaped(id, only.clone(), Deviation::Unmeasured).edits
+            }
+            (Some(_), [only]) => {
+                let outcome =
+                    Outcome::renumbered(input, only.clone(), Vec::new(), Deviation::Unmeasured);
+                outcome.map_or_else(|_| Vec::new(), |outcome| outcome.edits)
+            }
+            _ => {
+                let name = input.document().free_name(self.name);
+                let curves = best.into_iter();
+                let added = curves.map(|it| Edit::Add(Box::new(Curve::new(name.clone(), it))));
+                added.collect()
+            }
+        }
+    }
+}
+
+/// Whether a curve takes a polygon without new numbers for its vertices.
+fn has_same_vertices(one: &FloatPolygon, other: &FloatPolygon) -> bool {
+    let shape = |it: &FloatPolygon| (it.degree(), it.vertices().len(), it.is_periodic());
+    shape(one) == shape(other)
 }

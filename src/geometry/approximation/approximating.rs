@@ -247,6 +247,9 @@ impl Search<'_> {
             // What the end of the time spoilt says nothing.
             if !progress.is_cancelled() {
                 best = Some(self.better(best, tried));
+                if let Some(Ok(best)) = &best {
+                    progress.show(best.polygon.clone());
+                }
             }
             if is_near {
                 most = most.min(MOST_FOR_SHAPE.max(segments));

@@ -700,6 +700,8 @@ impl Search<'_> {
             },
         };
         if candidate.rank() < self.best.rank() {
+            let better = candidate.harmonised.polygon.clone();
+            self.progress.show(better);
             self.best = candidate;
         }
         Ok(if has && holds_apart {

@@ -5,17 +5,17 @@ use glam::DVec3;
 use super::neighbours::{noise, outliers};
 
 /// Points that count, how much each does, and what is known of the others.
-pub(in crate::geometry) struct CountedPoints {
+pub struct CountedPoints {
     /// Those that count, without repeated ones.
-    pub(in crate::geometry) points: Vec<DVec3>,
+    pub points: Vec<DVec3>,
     /// The weight of each, 1 on average.
-    pub(in crate::geometry) weights: Vec<f64>,
+    pub weights: Vec<f64>,
     /// The numbers of those that do not count, from 0 among all.
-    pub(in crate::geometry) outliers: Vec<usize>,
+    pub outliers: Vec<usize>,
     /// The numbers of those that repeat the one before.
-    pub(in crate::geometry) repeated: Vec<usize>,
+    pub repeated: Vec<usize>,
     /// The estimated standard deviation of the noise.
-    pub(in crate::geometry) noise: f64,
+    pub noise: f64,
 }
 
 impl CountedPoints {
@@ -23,7 +23,7 @@ impl CountedPoints {
     ///
     /// `closes`: the last point may repeat the first. `left_out`: the outliers; `None` for isolated points that
     /// stand out. `weights`: one a point; `None` if all count the same.
-    pub(in crate::geometry) fn new(
+    pub fn new(
         points: &[DVec3],
         closes: bool,
         left_out: Option<&[usize]>,

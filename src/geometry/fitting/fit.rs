@@ -14,6 +14,7 @@ use super::problem::{Data, EndCondition, EndValue};
 use super::slope_coefficients::SlopeTables;
 use crate::geometry::control_polygon::check_size;
 use crate::geometry::end::End;
+use crate::geometry::error::PolygonError;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::nearest::refined_parameter;
@@ -432,6 +433,8 @@ struct Search {
     known: BTreeMap<usize, Vec<Level>>,
     trade_off: Vec<TradeOff>,
     best: Option<Level>,
+    /// Whether the result is shown as it gets better.
+    is_shown: bool,
 }
 
 /// What a number of extrema brings.
@@ -513,7 +516,7 @@ impl Fit<'_> {
             return (Some(exact), Vec::new(), None);
         }
         let Extrema::Exactly(extrema) = self.asked.extrema else {
-            let (level, trade_off) = self.fewest();
+            let (level, trade_off) = self.fewest(true);
             return (level, trade_off, None);
         };
         let (level, trade_off) = self.exactly(extrema);
@@ -524,7 +527,7 @@ impl Fit<'_> {
         if self.asked.tolerance.is_none() || is_near {
             return (level, trade_off, None);
         }
-        let (fair, all) = self.fewest();
+        let (fair, all) = self.fewest(false);
         let fair = fair.filter(|fair| fair.largest <= tolerance);
         let least = fair.map(|fair| fair.start.slopes.cuts.len());
         (level, all, least)
@@ -534,6 +537,7 @@ impl Fit<'_> {
     /// line does, and has the features asked for.
     fn exact(&self) -> Option<Level> {
         let mut level = self.task_of_all(0, None).smoothed()?;
+        self.show(&level);
         if level.largest > EXACT || !self.prepared.ends.is_empty() {
             return None;
         }
@@ -562,9 +566,9 @@ impl Fit<'_> {
             extrema,
             self.asked.tolerance.map(|_| self.prepared.tolerance),
         );
-        let levels = levels.levels(&[]);
-        let (level, trade_off) =
-            self.refined_choice(extrema, levels, self.asked.tolerance.is_some());
+        let keeps = self.asked.tolerance.is_some();
+        let levels = levels.levels(&[], &|known| self.show_chosen(known, keeps));
+        let (level, trade_off) = self.refined_choice(extrema, levels, keeps);
         (level, trade_off.into_iter().collect())
     }
 
@@ -586,8 +590,11 @@ impl Fit<'_> {
     }
 
     /// The fit with the fewest extrema that keeps the tolerance, or else the nearest.
-    fn fewest(&self) -> (Option<Level>, Vec<TradeOff>) {
-        let mut search = Search::default();
+    fn fewest(&self, is_shown: bool) -> (Option<Level>, Vec<TradeOff>) {
+        let mut search = Search {
+            is_shown,
+            ..Search::default()
+        };
         let (step, most) = self.numbers();
         let (mut extrema, mut stale) = (usize::from(self.asked.mirror.is_some()), 0);
         // The largest number that misses the tolerance.
@@ -640,7 +647,7 @@ impl Fit<'_> {
                 progress: &progress,
                 ..self.task(extrema, Some(tolerance))
             };
-            let levels = task.levels(&fewer);
+            let levels = task.levels(&fewer, &|_| ());
             fewer.extend(levels.last().cloned());
             let (_, trade_off) = self.refined_choice(extrema, levels, true);
             search.trade_off.extend(trade_off);
@@ -668,7 +675,14 @@ impl Fit<'_> {
         let near = search.known.range(extrema.saturating_sub(2)..extrema);
         let last = near.flat_map(|(_, levels)| levels.iter().rev().take(RELEASED));
         let fewer: Vec<Level> = last.cloned().collect();
-        let levels = self.task(extrema, Some(tolerance)).levels(&fewer);
+        let is_first = search.is_shown && search.best.is_none();
+        let levels = self
+            .task(extrema, Some(tolerance))
+            .levels(&fewer, &|known| {
+                if is_first {
+                    self.show_chosen(known, true);
+                }
+            });
         search.known.insert(extrema, levels.clone());
         let (found, trade_off) = self.refined_choice(extrema, levels, true);
         search.trade_off.extend(trade_off);
@@ -677,6 +691,9 @@ impl Fit<'_> {
         let [now, before] = [distance(&found), distance(&search.best)];
         let keeps = now <= tolerance;
         if keeps || (now < before && before > tolerance) {
+            if let Some(found) = found.as_ref().filter(|_| search.is_shown) {
+                self.show(found);
+            }
             search.best = found;
         }
         Searched {
@@ -731,14 +748,34 @@ impl Fit<'_> {
         }
     }
 
-    /// Take a level back to where the points are, and measure it there.
-    fn finished(&self, points: &[DVec2], level: &Level) -> Result<Fitted, FitError> {
-        let prepared = self.whole;
+    /// Show what would be chosen of the levels known so far.
+    fn show_chosen(&self, known: &[Level], is_for_tolerance: bool) {
+        if let Some(chosen) = self.chosen(known.to_vec(), is_for_tolerance) {
+            self.show(&chosen);
+        }
+    }
+
+    /// Show the best level so far.
+    fn show(&self, level: &Level) {
+        if let Ok(polygon) = self.polygon(level) {
+            self.progress.show(polygon);
+        }
+    }
+
+    /// Take a level back to where the points are.
+    fn polygon(&self, level: &Level) -> Result<FloatPolygon, PolygonError> {
+        let prepared = self.prepared;
         let vertices = level.start.curve.vertices.iter();
         let vertices =
             vertices.map(|vertex| (prepared.unit * *vertex + prepared.middle).extend(0.0));
         let vertices: Vec<DVec3> = vertices.collect();
-        let polygon = FloatPolygon::new(self.asked.degree, vertices, None, self.asked.periodic)?;
+        FloatPolygon::new(self.asked.degree, vertices, None, self.asked.periodic)
+    }
+
+    /// Take a level back to where the points are, and measure it there.
+    fn finished(&self, points: &[DVec2], level: &Level) -> Result<Fitted, FitError> {
+        let prepared = self.whole;
+        let polygon = self.polygon(level)?;
         let features = Features::proved(&polygon, |_| true).ok_or(FitError::Cancelled)?;
         let distances = self.distances(points, level, &polygon);
         let counts = |index: &usize| prepared.outliers.binary_search(index).is_err();

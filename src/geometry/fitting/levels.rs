@@ -140,8 +140,8 @@ impl<'a> Task<'a> {
     /// which begin others where one of their runs of conditions gets the other sign.
     ///
     /// Each level begins at the best one so far, resampled; some of the first ones, and those that fail, at the
-    /// patterns of smoothed curves too. Returns the levels that hold, the nearest last.
-    pub(super) fn levels(&self, fewer: &[Level]) -> Vec<Level> {
+    /// patterns of smoothed curves too. Returns the levels that hold, the nearest last; `tell` gets those known so far.
+    pub(super) fn levels(&self, fewer: &[Level], tell: &dyn Fn(&[Level])) -> Vec<Level> {
         let mut levels: Vec<Level> = Vec::new();
         let most = self.count.unwrap_or(self.most);
         let least = self.least().min(most);
@@ -151,11 +151,8 @@ impl<'a> Task<'a> {
         let mut weighed = None;
         loop {
             let found = self.level(count, level, &levels, fewer, count == most);
-            if self.progress.is_cancelled() {
-                break;
-            }
             level += 1;
-            let before = levels.last().map(|it| it.rms);
+            let (before, known) = (levels.last().map(|it| it.rms), levels.len());
             let found = found.filter(|found| found.holds);
             let mut gain = 1.0;
             match found {
@@ -166,6 +163,12 @@ impl<'a> Task<'a> {
                 }
                 Some(found) if self.count == Some(count) => levels.push(found),
                 _ => stale += usize::from(before.is_some()),
+            }
+            if levels.len() > known {
+                tell(&levels);
+            }
+            if self.progress.is_cancelled() {
+                break;
             }
             let ends = count >= most || (stale >= STALE && self.count.is_none());
             if let (Some(best), Some(tolerance)) = (levels.last(), self.tolerance) {

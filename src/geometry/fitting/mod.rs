@@ -24,7 +24,7 @@ mod sign_runs;
 mod slope_coefficients;
 mod splines;
 
-pub(super) use counted_points::CountedPoints;
+pub use counted_points::CountedPoints;
 pub use error::FitError;
 pub use fit::{Extrema, Fitted, PlaneFit, TradeOff, fit_plane};
 pub use mirror::Mirror;

@@ -67,7 +67,7 @@ pub(in crate::geometry) fn refit(
         tables: &tables,
         progress,
     };
-    let levels = task.levels(&[]).into_iter();
+    let levels = task.levels(&[], &|_| ()).into_iter();
     let whole = levels.filter(|level| level.splines.count == polygon.vertices().len());
     let best = whole.min_by(|a, b| a.largest.total_cmp(&b.largest))?;
     let vertices = best.start.curve.vertices.iter();
