@@ -1,6 +1,8 @@
 //! What each number of curvature extrema reaches, as a small plot: a click asks for one.
 
-use eframe::egui::{Align2, CursorIcon, Rect, Role, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use eframe::egui::{
+    Align2, CursorIcon, Rect, Response, Role, Sense, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+};
 
 use super::atlas::Values;
 use super::theme::{self, STEP, Tokens};
@@ -17,12 +19,29 @@ const WIDTHS: [f32; 2] = [2.5 * STEP, 8.0 * STEP];
 /// The height of the lowest bar, as a share.
 const LEAST: f64 = 0.1;
 
+/// The ratio of distances that fills the height at least: less of a difference looks smaller.
+const DECADE: f64 = 10.0;
+
 /// What a number of extrema reaches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     extrema: usize,
     vertices: usize,
     largest: f64,
+}
+
+impl Row {
+    fn name(&self) -> String {
+        let extrema = counted(self.extrema, "extremum", "extrema");
+        format!(
+            "{extrema}, {}",
+            counted(self.vertices, "vertex", "vertices")
+        )
+    }
+
+    fn distance(&self) -> String {
+        figures::significant(self.largest, 4)
+    }
 }
 
 /// The plot, which keeps its bars while only the number of extrema changes.
@@ -58,7 +77,8 @@ impl TradeOff {
         }
     }
 
-    /// Show the bars, higher where the curve is farther off; returns what a click on one asks for.
+    /// Show the bars, higher where the curve is farther off, and below them the figures of the hovered one or the
+    /// present one; returns what a click on one asks for.
     pub fn show(&self, ui: &mut Ui, present: Option<usize>) -> Option<Values> {
         if self.rows.len() < 2 {
             return None;
@@ -68,34 +88,38 @@ impl TradeOff {
         let room = vec2(ui.available_width(), height + below);
         let (rect, _) = ui.allocate_exact_size(room, Sense::hover());
         let width = (rect.width() / self.rows.len() as f32).clamp(WIDTHS[0], WIDTHS[1]);
-        let mut clicked = None;
+        let (mut clicked, mut hovered) = (None, None);
         for (index, row) in self.rows.iter().enumerate() {
             let left = rect.left() + index as f32 * width;
             let right = (left + width).min(rect.right());
             let cell = Rect::from_min_max(pos2(left, rect.top()), pos2(right, rect.bottom()));
-            if self.bar_ui(ui, cell, row, present == Some(row.extrema)) {
+            let response = self.bar_ui(ui, cell, row, present == Some(row.extrema));
+            if response.clicked() {
                 clicked = Some(row.extrema);
             }
+            if response.hovered() || response.has_focus() {
+                hovered = Some(row);
+            }
         }
+        let is_present = |row: &&Row| Some(row.extrema) == present;
+        let told = hovered.or_else(|| self.rows.iter().find(is_present));
+        let name = told.map_or_else(|| "No number of these".to_owned(), Row::name);
+        let distance = told.map_or_else(|| "–".to_owned(), Row::distance);
+        widgets::figure_row(ui, &name, &distance);
         let extrema = clicked?;
         Some(vec![(EXTREMA, Value::List(vec![extrema as f64]))])
     }
 
-    /// Show one bar with its number; returns whether it was clicked.
-    fn bar_ui(&self, ui: &Ui, cell: Rect, row: &Row, is_present: bool) -> bool {
+    /// Show one bar with its number.
+    fn bar_ui(&self, ui: &Ui, cell: Rect, row: &Row, is_present: bool) -> Response {
         let tokens = Tokens::of(ui);
         let id = ui.scope_id().with(("trade-off", row.extrema));
-        let words = format!(
-            "{}: {} off, {}",
-            counted(row.extrema, "extremum", "extrema"),
-            figures::significant(row.largest, 3),
-            counted(row.vertices, "vertex", "vertices"),
-        );
+        let words = format!("{}: {} off", row.name(), row.distance());
         let response = ui.interact(cell, id, Sense::click());
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_present, &words));
         let response = response
             .on_hover_cursor(CursorIcon::PointingHand)
-            .on_hover_text(words);
+            .on_hover_text(format!("{words}. Click to ask for it"));
         let [height, below] = HEIGHTS;
         let share = self.share(row.largest) as f32;
         let foot = cell.bottom() - below;
@@ -122,7 +146,7 @@ impl TradeOff {
             font,
             colour,
         );
-        response.clicked()
+        response
     }
 
     /// The height of a bar, by the logarithm of its distance, as a share.
@@ -133,7 +157,7 @@ impl TradeOff {
             .map(|row| row.largest.max(f64::MIN_POSITIVE).ln());
         let low = all.clone().fold(f64::INFINITY, f64::min);
         let high = all.fold(f64::NEG_INFINITY, f64::max);
-        let place = (largest.max(f64::MIN_POSITIVE).ln() - low) / (high - low).max(f64::EPSILON);
+        let place = (largest.max(f64::MIN_POSITIVE).ln() - low) / (high - low).max(DECADE.ln());
         LEAST + (1.0 - LEAST) * place
     }
 }
