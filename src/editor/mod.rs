@@ -25,7 +25,7 @@ pub use hand::{
 pub use jobs::file_reading::{ColumnQuestion, FileAnswer};
 pub use jobs::filing::{FileReply, Filing};
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, Recovery, with_extension};
-pub use operating::{Operating, OperationInProgress, Run};
+pub use operating::{FittedPoints, Operating, OperationInProgress, Run};
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};
@@ -34,7 +34,8 @@ pub use view::{
     EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid, GuideLabel,
     GuideScene, HoverScene, Layer, LayerRow, LayerSample, Layers, Legs, Look, LossArrow, Mark,
     MeasuredFigure, NamedView, Orientation, PieceTrend, PlotBand, PlotKind, PlotScene, REACH,
-    Scene, Sight, VertexMark, View, ViewBox, Viewport, grid_steps, ground_grid, view_name,
+    Scene, Sight, VertexMark, View, ViewBox, Viewport, Whiskers, grid_steps, ground_grid,
+    view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 
@@ -165,6 +166,12 @@ impl Editor {
             }
             None => marks.extend(snap_name(tool, &context)),
         }
+        let point = operation.and_then(|it| it.point_under_pointer(tool, &context));
+        if let Some(operation) = operation {
+            marks.extend(operation.point_marks(viewport, &self.view.whiskers, point));
+        }
+        let point_hover =
+            || operation.and_then(|operation| operation.point_hover(viewport, point?));
         let is_made = |it: &&OperationInProgress| {
             active.is_some_and(|id| it.made_curves(self.document()).contains(&id))
         };
@@ -181,7 +188,10 @@ impl Editor {
         };
         Overlay {
             marks,
-            handle: previewed.and_then(|it| it.handle_hover(viewport, pointer)),
+            handle: previewed
+                .and_then(|it| it.handle_hover(viewport, pointer))
+                .or_else(point_hover),
+            measures_points: operation.is_some_and(|it| it.fitted_points().is_some()),
             hovering: self.hand.hovering(context.hits.shown),
             guides: tool == ToolKind::Select,
             fitted_end: (tool == ToolKind::EndFit).then_some(self.hand.settings.end_fit.end),

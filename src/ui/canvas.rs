@@ -385,5 +385,6 @@ fn cursor_icon(cursor: Cursor) -> CursorIcon {
         Cursor::Grabbing => CursorIcon::Grabbing,
         Cursor::Crosshair => CursorIcon::Crosshair,
         Cursor::Move => CursorIcon::Move,
+        Cursor::Point => CursorIcon::PointingHand,
     }
 }

@@ -24,6 +24,7 @@ mod feature_list;
 mod feature_marks;
 mod figures;
 mod file_dialogs;
+mod fitted_points;
 mod formula_fields;
 mod gizmo;
 mod grid;

@@ -207,7 +207,7 @@ impl OperationFields {
 }
 
 /// The width of the captions: that of the longest, so that none is cut off.
-fn label_width(ui: &Ui, in_progress: &OperationInProgress) -> f32 {
+pub fn label_width(ui: &Ui, in_progress: &OperationInProgress) -> f32 {
     let parameters = in_progress.operation().parameters.iter();
     let widths = parameters.map(|parameter| text_width(ui, parameter.label));
     let most = (MOST_LABEL * ui.available_width()).max(LABEL);

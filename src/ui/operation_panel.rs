@@ -1,9 +1,13 @@
 //! The operation panel: the parameters and the result of the operation in progress.
 
-use eframe::egui::{Frame, Panel, ProgressBar, Ui, vec2};
+use std::time::Duration;
+
+use eframe::egui::{Button, Frame, Panel, ProgressBar, Ui, vec2};
 use lucide_icons::Icon;
 
 use super::atlas::{AtlasView, Values};
+use super::feature_comparison::OUTDATED;
+use super::fitted_points::fitted_points_ui;
 use super::number_field::FieldEvent;
 use super::operation_fields::{OperationFields, Refused};
 use super::operation_report::{ReportView, error_ui, failure, summary_ui};
@@ -14,6 +18,9 @@ use crate::operations::Atlas;
 
 /// The heights of the places for the summary, the error and the buttons, one below the other.
 const FOOT: [f32; 3] = [16.0 * STEP, 9.0 * STEP, 9.0 * STEP];
+
+/// The time between two looks at a search.
+const REFRESH: Duration = Duration::from_millis(100);
 
 /// The panel's own state.
 #[derive(Default)]
@@ -28,6 +35,8 @@ enum PanelAction {
     /// Change values of parameters.
     Change(FieldEvent<Values>),
     Apply,
+    /// Stop the search with the best found so far.
+    Stop,
     Leave,
 }
 
@@ -44,8 +53,11 @@ impl OperationPanel {
         let mut actions = Vec::from_iter(heading_ui(ui, in_progress));
         let foot = self.foot_ui(ui, in_progress, editor.operation_progress());
         ui.add_space(STEP);
-        let mut shows_atlas = false;
+        let (mut shows_atlas, mut whiskers) = (false, editor.view().whiskers);
         widgets::scrolling(ui, in_progress.operation().name, |ui| {
+            if let Some(points) = in_progress.fitted_points() {
+                fitted_points_ui(ui, in_progress, points, &mut whiskers);
+            }
             actions.extend(self.fields_ui(ui, in_progress));
             ui.separator();
             if let Some(atlas) = &atlas {
@@ -63,6 +75,7 @@ impl OperationPanel {
         // A click on a button also leaves a field: its text counts first.
         actions.extend(foot);
         editor.view_mut().shows_atlas = shows_atlas;
+        editor.view_mut().whiskers = whiskers;
         for action in actions {
             self.perform(action, editor, &refused_before);
         }
@@ -81,6 +94,7 @@ impl OperationPanel {
             PanelAction::Change(FieldEvent::Commit) => editor.operating().keep_values(),
             PanelAction::Change(FieldEvent::Abort) => editor.operating().restore_values(),
             PanelAction::Apply => told(editor.operating().apply()),
+            PanelAction::Stop => editor.operating().stop(),
             PanelAction::Leave => editor.operating().leave(),
         }
     }
@@ -108,11 +122,9 @@ impl OperationPanel {
         progress: Option<f64>,
     ) -> Option<PanelAction> {
         let [summary, wrong, buttons] = FOOT;
-        let height = if in_progress.is_applied() {
-            0.0
-        } else {
-            buttons
-        };
+        // Other values of an applied search are searched for again.
+        let has_buttons = !in_progress.is_applied() || in_progress.operation().can_be_stopped();
+        let height = if has_buttons { buttons } else { 0.0 };
         let panel = Panel::bottom("operation foot").resizable(false);
         let panel = panel
             .frame(Frame::NONE)
@@ -130,11 +142,14 @@ impl OperationPanel {
                 let refused = self.fields.refusal.as_ref();
                 let refused = refused.filter(|refused| refused.parameter.is_none());
                 let refused = refused.map(|refused| refused.text.clone());
+                if in_progress.is_pending() {
+                    ui.multiply_opacity(OUTDATED);
+                }
                 if let Some(text) = refused.or_else(|| failure(in_progress)) {
                     error_ui(ui, &text);
                 }
             });
-            (!in_progress.is_applied()).then(|| buttons_ui(ui, in_progress, progress))
+            has_buttons.then(|| buttons_ui(ui, in_progress, progress))
         });
         action.inner.flatten()
     }
@@ -173,7 +188,8 @@ fn heading_ui(ui: &mut Ui, in_progress: &OperationInProgress) -> Option<PanelAct
     left.then_some(PanelAction::Leave)
 }
 
-/// Apply and Cancel; their keys are the canvas's, which has the keyboard unless a field has it.
+/// Apply and Cancel of a preview, and how far its run is; their keys are the canvas's, which has the keyboard unless a
+/// field has it.
 fn buttons_ui(
     ui: &mut Ui,
     in_progress: &OperationInProgress,
@@ -185,16 +201,32 @@ fn buttons_ui(
         Some(run) => run.as_ref().is_ok_and(|run| run.outcome.is_useful()),
     };
     ui.horizontal_centered(|ui| {
-        let apply = ui.add_enabled_ui(enabled, |ui| widgets::primary_button(ui, "Apply"));
-        if apply.inner.on_hover_text("Enter").clicked() {
-            action = Some(PanelAction::Apply);
+        if !in_progress.is_applied() {
+            let apply = ui.add_enabled_ui(enabled, |ui| widgets::primary_button(ui, "Apply"));
+            if apply.inner.on_hover_text("Enter").clicked() {
+                action = Some(PanelAction::Apply);
+            }
+            if ui.button("Cancel").on_hover_text("Esc").clicked() {
+                action = Some(PanelAction::Leave);
+            }
         }
-        if ui.button("Cancel").on_hover_text("Esc").clicked() {
-            action = Some(PanelAction::Leave);
-        }
-        if let Some(done) = progress {
-            ui.add(ProgressBar::new(done as f32).show_percentage());
-        }
+        let Some(done) = progress else { return };
+        // The bar grows while nothing else happens.
+        ui.request_repaint_after(REFRESH);
+        widgets::at_right(ui, |ui| {
+            if in_progress.is_pending() && in_progress.operation().can_be_stopped() {
+                let enabled = in_progress.can_be_stopped();
+                let stop = ui.add_enabled(enabled, Button::new("Stop"));
+                if stop
+                    .on_hover_text("End the search with the best found so far")
+                    .clicked()
+                {
+                    action = Some(PanelAction::Stop);
+                }
+            }
+            let bar = ProgressBar::new(done as f32).show_percentage();
+            ui.add(bar.desired_width(ui.available_width()));
+        });
     });
     action
 }

@@ -48,6 +48,9 @@ const EXTREME: f32 = 9.0;
 /// The radius of an operation's handle.
 const HANDLE: f32 = 6.5;
 
+/// Half the side of the cross at a point that is left out.
+const CROSS: f32 = 4.0;
+
 /// Points of a ruler that texts are kept clear of.
 const RULER_STEPS: u32 = 64;
 
@@ -338,6 +341,37 @@ impl Brush<'_> {
                 self.disc(*at, HANDLE, fill, Stroke::new(2.0, tokens.accent));
             }
             Mark::Label(at, text) => self.text_beside(*at, text, others),
+            Mark::Whiskers(whiskers) => self.hairs(whiskers, tokens.target),
+            Mark::Points {
+                kept,
+                left_out,
+                hovered,
+            } => {
+                self.fitted_points(kept, left_out);
+                if let Some(at) = hovered {
+                    self.disc(*at, SELECTED[1], Color32::TRANSPARENT, accent);
+                }
+            }
+        }
+    }
+
+    /// Points that count are discs, those that are left out crosses.
+    fn fitted_points(&self, kept: &[DVec2], left_out: &[DVec2]) {
+        let (radius, rim) = match kept.len() > CROWD {
+            true => (1.5, Stroke::NONE),
+            false => (3.0, Stroke::new(1.0, self.tokens.background)),
+        };
+        for at in kept {
+            self.disc(*at, radius, self.tokens.target, rim);
+        }
+        let stroke = Stroke::new(2.0, self.tokens.error);
+        for at in left_out.iter().filter_map(|at| self.screen.point(*at)) {
+            let ground = self.tokens.background;
+            self.painter.circle_filled(at, 1.5 * CROSS, ground);
+            for across in [vec2(CROSS, CROSS), vec2(CROSS, -CROSS)] {
+                self.painter
+                    .line_segment([at - across, at + across], stroke);
+            }
         }
     }
 

@@ -18,6 +18,7 @@ mod entering;
 mod events;
 mod features;
 mod files;
+mod fitting;
 mod following;
 mod generating;
 mod guides;

@@ -7,6 +7,7 @@ mod drawing;
 mod expressions;
 mod fields;
 mod files;
+mod fitting;
 mod generating;
 mod hand;
 mod harmony;

@@ -114,6 +114,13 @@ impl Editor {
         if self.hand.gestures.is_orbiting() {
             return "Drag to orbit; F3, F4, F5 look along the axes".into();
         }
+        let (tool, context) = (self.hand.tool(), self.context());
+        let point = self
+            .operation()
+            .and_then(|it| it.point_under_pointer(tool, &context));
+        if point.is_some() {
+            return "Click to leave the point out of the fit, or to take it back".into();
+        }
         let previewed = self.previewed_operation();
         let at = self.hand.gestures.pointer();
         let viewport = &self.view.viewport;
@@ -149,6 +156,13 @@ impl Editor {
         }
         if self.hand.gestures.is_orbiting() {
             return Cursor::Grabbing;
+        }
+        let (tool, context) = (self.hand.tool(), self.context());
+        let point = self
+            .operation()
+            .and_then(|it| it.point_under_pointer(tool, &context));
+        if point.is_some() {
+            return Cursor::Point;
         }
         let previewed = self.previewed_operation();
         let drags_handle = previewed.is_some_and(OperationInProgress::drags_handle);

@@ -150,7 +150,12 @@ impl<Q, T: Send + 'static> Client<Q, T> {
 
     /// The share of the newest job that is done, from 0 to 1; `None` once it has reported.
     pub fn progress(&self) -> Option<f64> {
-        self.pending.then(|| self.worker.progress().done())
+        self.watched().map(Progress::done)
+    }
+
+    /// The progress of the newest job; `None` once it has reported.
+    pub fn watched(&self) -> Option<&Progress> {
+        self.pending.then(|| self.worker.progress())
     }
 
     fn with(worker: Worker<Option<T>>) -> Self {

@@ -1,4 +1,4 @@
-//! Gestures on the canvas while an operation is previewed: its handles come first.
+//! Gestures on the canvas while an operation is in progress: its points and handles come first.
 
 use glam::DVec2;
 
@@ -9,9 +9,17 @@ use crate::editor::reply::{Message, Refusal};
 use crate::editor::view::{Look, REACH};
 
 impl Operating<'_> {
-    /// Take a gesture that is meant for a handle of the previewed operation, or beside the handles of one
-    /// that offers some. Returns whether the gesture was taken.
+    /// Take a click on a point that is fitted, and a gesture that is meant for a handle of the previewed operation, or
+    /// beside the handles of one that offers some. Returns whether the gesture was taken.
     pub(in crate::editor) fn take_gesture(&mut self, gesture: Gesture) -> bool {
+        if let Gesture::Click(at) | Gesture::DoubleClick(at) = gesture {
+            let (context, tool) = (self.context(), self.hand.tool());
+            let current = self.current();
+            if let Some(point) = current.and_then(|it| it.point_at(at, tool, &context)) {
+                self.switch_point(point);
+                return true;
+            }
+        }
         let Some(previewed) = self.previewed() else {
             return false;
         };

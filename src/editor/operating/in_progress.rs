@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::end_fit_step::EndFitStep;
+use super::fitted_points::FittedPoints;
 use crate::document::{Curve, CurveId, Document};
 use crate::editor::selection::Selection;
 use crate::editor::view::{Mark, Viewport};
@@ -27,11 +28,17 @@ pub struct OperationInProgress {
     pub(super) run: Option<Result<Run, OperationError>>,
     /// Whether the run with the present values is not finished.
     pub(super) pending: bool,
+    /// Whether that run was asked for the best found so far.
+    pub(super) stops: bool,
+    /// Whether a curve that it made was shown.
+    pub(super) has_made: bool,
     /// The last proved features before and afterwards.
     pub(super) features: Option<FeatureComparison>,
     /// The handles of the last run that succeeded.
     pub(super) handles: Vec<Handle>,
     pub(super) dragged: Option<HandleDrag>,
+    /// The points that are fitted, if the operation fits some.
+    pub(super) points: FittedPoints,
     /// The values before the change in progress, such as a drag.
     pub(super) held: Option<Values>,
     /// The values before each change, the oldest first.
@@ -104,6 +111,11 @@ impl OperationInProgress {
     /// Whether the run with the present values is not finished.
     pub fn is_pending(&self) -> bool {
         self.pending
+    }
+
+    /// Whether the run can be stopped with the best found so far.
+    pub fn can_be_stopped(&self) -> bool {
+        self.pending && !self.stops && self.operation.can_be_stopped()
     }
 
     /// The last proved features before and afterwards, and whether they belong to the present values.
@@ -181,7 +193,9 @@ impl OperationInProgress {
 
     /// The marks of the last run on the canvas.
     pub(in crate::editor) fn marks(&self, viewport: &Viewport) -> Vec<Mark> {
-        let annotations = self.finished().map(|run| run.outcome.annotations.iter());
+        // Points that are fitted have marks of their own.
+        let run = self.finished().filter(|_| self.fitted_points().is_none());
+        let annotations = run.map(|run| run.outcome.annotations.iter());
         let seen = |point| viewport.flatten(point);
         let marks = annotations.into_iter().flatten().map(|mark| match *mark {
             operations::Annotation::Point(point) => Mark::Snap(seen(point)),

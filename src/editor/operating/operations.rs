@@ -8,18 +8,21 @@ use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::selection::Selection;
 use crate::editor::view::{Look, View};
 use crate::editor::workspace::{Interruption, Workspace};
-use crate::geometry::Progress;
+use crate::geometry::{Nearest, Progress};
 use crate::operations::{
     FeatureComparison, Inputs, Operands, Operation, OperationError, Value, Values,
 };
 
 use super::end_fit_step::EndFitStep;
+use super::fitted_points::FittedPoints;
 use super::in_progress::{OperationInProgress, Run, Stage};
 
 /// Hold the operation in progress and run it beside the frame.
 #[derive(Debug, Default)]
 pub(in crate::editor) struct Operations {
     client: Client<(), JobResult>,
+    /// Measures how far points are from the curves that are shown.
+    pub(super) measuring: Client<(), Vec<Nearest>>,
     pub(super) operation: Option<OperationInProgress>,
 }
 
@@ -43,10 +46,11 @@ pub struct Operating<'a> {
 
 impl Operations {
     /// Run operations on a thread, which calls `wake` when a result is there.
-    pub fn background(wake: impl Fn() + Send + 'static) -> Self {
+    pub fn background(wake: impl Fn() + Clone + Send + 'static) -> Self {
         Self {
-            client: Client::background("operations", wake),
-            ..Self::default()
+            client: Client::background("operations", wake.clone()),
+            measuring: Client::background("points", wake),
+            operation: None,
         }
     }
 
@@ -131,6 +135,7 @@ impl Operating<'_> {
             self.workspace.abort();
         }
         self.operations.client.forget();
+        self.operations.measuring.forget();
         // A preview that something else has ended has nothing to restore.
         if let Some(left) = self.operations.operation.take()
             && previews
@@ -175,6 +180,37 @@ impl Operating<'_> {
     pub(in crate::editor) fn receive(&mut self) {
         self.operations.client.receive();
         self.take_result();
+        self.show_best();
+        self.operations.measuring.receive();
+        self.take_distances();
+    }
+
+    /// Stop the search that runs: the best found so far becomes its result. An operation that does not search for a
+    /// limited time goes on.
+    pub fn stop(&mut self) {
+        if let Some(current) = self.current_mut().filter(|it| it.can_be_stopped()) {
+            current.stops = true;
+            self.operations.client.watched().inspect(|it| it.stop());
+        }
+    }
+
+    /// Show in the preview the best that the search has found so far.
+    fn show_best(&mut self) {
+        let Some(current) = self.previewed().filter(|it| it.pending) else {
+            return;
+        };
+        let watched = self.operations.client.watched();
+        let Some(best) = watched.and_then(Progress::take_shown) else {
+            return;
+        };
+        let (input, values) = (&current.input, &current.values);
+        let edits = current.operation.edits_of_best(input, values, best);
+        // What cannot be shown is no fault of the user: the result tells what is wrong.
+        if self.workspace.update(edits).is_ok() {
+            self.document_changed();
+            self.activate_made();
+            self.measure_points();
+        }
     }
 
     /// Change the values of some parameters.
@@ -278,9 +314,12 @@ impl Operating<'_> {
             selection: self.hand.selection.clone(),
             run: None,
             pending: false,
+            stops: false,
+            has_made: false,
             features: None,
             handles: Vec::new(),
             dragged: None,
+            points: FittedPoints::default(),
             held: None,
             earlier: Vec::new(),
             applies: false,
@@ -299,6 +338,8 @@ impl Operating<'_> {
             return;
         };
         current.pending = true;
+        current.stops = false;
+        current.update_left_out();
         let operation = current.operation;
         let (input, values) = (current.input.clone(), current.values.clone());
         let job = move |progress: &Progress| {
@@ -359,7 +400,6 @@ impl Operating<'_> {
             return;
         };
         let succeeds = run.as_ref().is_ok_and(Run::succeeds);
-        let is_first = current.run.is_none();
         // The handles of the last success lead back to one.
         if let Ok(run) = &run {
             current.handles.clone_from(&run.outcome.handles);
@@ -370,7 +410,7 @@ impl Operating<'_> {
         match current.stage {
             Stage::Previewed(_) => {
                 self.show_run();
-                self.activate_made(is_first);
+                self.activate_made();
             }
             Stage::Applied { steps, .. } => {
                 // A run that fails leaves the applied step as it is.
@@ -381,6 +421,7 @@ impl Operating<'_> {
                 *self.message = Message::of(&reply);
             }
         }
+        self.measure_points();
         if applies {
             let reply = self.settle();
             let current = self.operations.operation.as_mut();
@@ -474,7 +515,7 @@ impl Operating<'_> {
 
     /// Make a new curve the active one, compare it with the other new curve, or with the reference or
     /// the curve that it follows, and bring it into sight the first time.
-    fn activate_made(&mut self, is_first: bool) {
+    fn activate_made(&mut self) {
         let Some(current) = self.current() else {
             return;
         };
@@ -484,6 +525,10 @@ impl Operating<'_> {
         };
         let follows = matches!(current.operation.inputs, Inputs::OneOrNone | Inputs::Points);
         let (followed, was_active) = (current.curve(), current.selection.active());
+        let is_first = match &mut self.operations.operation {
+            Some(current) => !std::mem::replace(&mut current.has_made, true),
+            None => false,
+        };
         let selection = &mut self.hand.selection;
         let active = match selection.active().filter(|id| made.contains(id)) {
             Some(active) => active,
@@ -506,9 +551,17 @@ impl Operating<'_> {
                 let compared = reference.or(followed).or(self.view.compared);
                 self.view.compared = compared;
             }
+            // A curve lies where its points are, though its vertices may be far away.
+            let look = match self.sees_points() {
+                false => Some(Look::New(made)),
+                true => (made.len() == self.workspace.document().curves().count())
+                    .then_some(Look::ResetComb),
+            };
             let layers = self.hand.layers(self.view.layers);
             let shown = self.hand.shown(self.workspace, layers);
-            self.view.look(Look::New(made), shown);
+            if let Some(look) = look {
+                self.view.look(look, shown);
+            }
         }
     }
 

@@ -49,7 +49,9 @@ impl View {
         let sight = self.sight(shown);
         scene.marks = std::mem::take(&mut overlay.marks);
         scene.marks.extend(sight.flow_marks());
-        scene.marks.extend(sight.distance_marks());
+        if !overlay.measures_points {
+            scene.marks.extend(sight.distance_marks());
+        }
         sight.draw_guides(&mut scene.guides);
         scene.hover = sight.hover(overlay);
         self.scene = scene;

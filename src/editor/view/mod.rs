@@ -35,6 +35,7 @@ mod sleeve;
 #[allow(clippy::module_inception)]
 mod view;
 pub(in crate::editor) mod viewport;
+mod whiskers;
 
 pub use chain_outlines::ChainOutlines;
 pub use comb::CombSettings;
@@ -56,3 +57,4 @@ pub use scene::{
 pub use sight::Sight;
 pub use view::View;
 pub use viewport::Viewport;
+pub use whiskers::Whiskers;

@@ -14,6 +14,8 @@ pub struct Overlay {
     pub marks: Vec<Mark>,
     /// The handle under the pointer.
     pub handle: Option<HoverScene>,
+    /// Whether marks show how far points are from the curve: then the distance between the two is not marked.
+    pub measures_points: bool,
     /// What else the pointer can hover.
     pub hovering: Hovering,
     /// Whether the safe region of the selected vertex may be shown.

@@ -203,6 +203,17 @@ pub enum Mark {
     },
     /// A short text at a place.
     Label(DVec2, String),
+    /// The distances of points from a curve, from the curve on.
+    Whiskers(Vec<[DVec2; 2]>),
+    /// Points that are fitted.
+    Points {
+        /// Those that count.
+        kept: Vec<DVec2>,
+        /// Those that are left out.
+        left_out: Vec<DVec2>,
+        /// The one that a click would switch.
+        hovered: Option<DVec2>,
+    },
 }
 
 /// A figure of a measurement.

@@ -18,6 +18,7 @@ use crate::editor::view::plot_scene::{MarkSource, PlotKind, PlotScene, PlotSourc
 use crate::editor::view::scene::Scene;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::viewport::Viewport;
+use crate::editor::view::whiskers::Whiskers;
 
 /// Hold viewport, layers, hovering, analyses with their background work, and the contents of canvas and
 /// plots.
@@ -41,6 +42,8 @@ pub struct View {
     /// layer of features.
     pub bands_only_plotted: bool,
     pub(in crate::editor) comb: CombSettings,
+    /// How distances of points that are fitted are drawn.
+    pub whiskers: Whiskers,
     pub(in crate::editor) hovered: Hovered,
     /// The marks of panels in the frame before, for panels that come first.
     pub(in crate::editor) hovered_before: Hovered,

@@ -196,6 +196,8 @@ pub enum Cursor {
     Crosshair,
     /// Four arrows: a drag moves the item here.
     Move,
+    /// A pointing hand: a click switches the item here.
+    Point,
 }
 
 impl Context<'_> {
