@@ -25,6 +25,12 @@ use crate::geometry::fitting::{
 use crate::geometry::parameters::{OutOfRange, Quantity};
 use crate::geometry::{End, MAX_DEGREE, Progress, counted, significant};
 
+/// Points that are off a symmetric curve by more than so many tolerances are not symmetric.
+const LOPSIDED: f64 = 10.0;
+
+/// So many corners are named.
+const NAMED: usize = 12;
+
 /// A fit in space is far off if the nearest one with as many vertices is nearer by this factor.
 const FAR: f64 = 1.3;
 
@@ -408,9 +414,10 @@ impl Piece {
             found: found.deviation,
             most,
         });
-        // What the noise lets expect is missed only where the time was up before.
-        let is_rough =
-            found.stopped && asked.extrema == Extrema::Fewest && found.deviation > found.tolerance;
+        // Without a wish the curve is as near as the noise lets expect, unless time or a symmetry forbid it.
+        let is_rough = (found.stopped || asked.mirror.is_some())
+            && asked.extrema == Extrema::Fewest
+            && found.deviation > found.tolerance;
         let failed = (!found.holds || is_rough).then_some(Requirement::Failed { left: None });
         let places = places.filter(|_| !asked.periodic);
         features
@@ -541,10 +548,14 @@ fn outcome(
     let worst = |of: fn(&Fitted) -> f64| fitted.iter().map(of).fold(0.0, f64::max);
     let mut remarks: Vec<String> = fitted.iter().flat_map(|it| remarks(asked, it)).collect();
     if !corners.is_empty() && !values.switch(&SPLIT) {
-        let corners: Vec<String> = corners.iter().map(usize::to_string).collect();
+        let named: Vec<String> = corners.iter().take(NAMED).map(usize::to_string).collect();
+        let more = match corners.len().saturating_sub(NAMED) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
         remarks.push(format!(
-            "The points have corners at {}: with “Split corners” each piece becomes a curve",
-            corners.join(", ")
+            "The points have corners at {}{more}: with “Split corners” each piece becomes a curve",
+            named.join(", ")
         ));
     }
     Outcome {
@@ -626,6 +637,12 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
                 "Nothing found keeps {tolerance}, which the noise lets expect: one point is {off} off"
             ));
         }
+    }
+    if asked.mirror.is_some() && found.deviation > LOPSIDED * found.tolerance {
+        let off = significant(found.deviation, 3);
+        remarks.push(format!(
+            "The points are not their own mirror image: one is {off} off the symmetric curve"
+        ));
     }
     remarks.extend(remark_on_noise(asked.tolerance, found.noise));
     remarks

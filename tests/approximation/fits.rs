@@ -472,3 +472,31 @@ fn long_ellipses_are_fitted_within_the_noise_whatever_the_seed() {
     println!("worst {worst:.4} of the noise");
     assert!(missed.is_empty(), "{missed:?}");
 }
+
+#[test]
+fn points_on_a_line_make_a_straight_curve() {
+    let mut random = Random(21);
+    for case in 0..20 {
+        let size = 10.0_f64.powf(random.between(-6.0, 6.0));
+        let begin = random.vector(3.0 * size, false).truncate();
+        let way = random.vector(size, false).truncate();
+        let points: Vec<_> = (0..40)
+            .map(|it| begin + f64::from(it) / 39.0 * way)
+            .collect();
+        let asked = PlaneFit {
+            degree: 3 + case % 4,
+            count: (case % 3 == 0).then_some(12),
+            ..PlaneFit::default()
+        };
+        let found = fit_plane(&points, &asked, &Progress::default()).expect("a line");
+        assert!(
+            found.holds && found.largest < 1e-10 * size,
+            "{case}: {}",
+            found.largest
+        );
+        assert_eq!((found.extrema, found.inflections), (0, 0), "{case}");
+        let legs = found.polygon.vertices().windows(2).map(|it| it[1] - it[0]);
+        let legs: Vec<DVec3> = legs.collect();
+        assert!(legs.iter().all(|leg| *leg == legs[0]), "{case}: {legs:?}");
+    }
+}

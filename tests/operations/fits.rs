@@ -172,3 +172,20 @@ fn a_tolerance_below_the_noise_gives_the_nearest_that_was_found() {
         "{json}"
     );
 }
+
+#[test]
+fn a_symmetric_fit_to_points_that_are_not_says_so() {
+    let given = [("symmetric", "x")];
+    let lopsided = typed(wave(40), &given).expect("a fit");
+    let text = lopsided.text();
+    assert!(!lopsided.reached, "{text}");
+    assert!(
+        text.contains("not their own mirror image: one is"),
+        "{text}"
+    );
+    let even = typed(wave(40), &[("symmetric", "x"), ("extrema", "2")]);
+    assert_eq!(
+        even.unwrap_err(),
+        "Curvature extrema: 2 is out of range: odd, as the curve is symmetric, is needed"
+    );
+}

@@ -78,25 +78,22 @@ impl Seen {
         first.perp_dot(self.at(u, 2)) / first.length().powi(3)
     }
 
-    /// The slope of the curvature times a power of the speed.
-    fn slope(&self, u: f64) -> f64 {
+    /// The slope of the curvature times a power of the speed, and the size of its terms.
+    fn slope(&self, u: f64) -> [f64; 2] {
         let [first, second, third] = [1, 2, 3].map(|order| self.at(u, order));
-        first.length_squared() * first.perp_dot(third)
-            - 3.0 * first.dot(second) * first.perp_dot(second)
+        let terms = [
+            first.length_squared() * first.perp_dot(third),
+            3.0 * first.dot(second) * first.perp_dot(second),
+        ];
+        [terms[0] - terms[1], terms[0].abs() + terms[1].abs()]
     }
 
-    /// Changes of sign of a function along the curve, and whether one of its values has no certain sign.
-    fn changes(&self, of: impl Fn(f64) -> f64) -> usize {
+    /// Changes of sign of a function along the curve, where its values are certain beside the size of their terms.
+    fn changes(&self, of: impl Fn(f64) -> [f64; 2]) -> usize {
         let count = PARTS * (self.vertices.len() - self.degree);
         let inside = (0..count).map(|part| of((part as f64 + 0.5) / PARTS as f64));
-        let values: Vec<f64> = inside.collect();
-        let largest = values
-            .iter()
-            .fold(0.0_f64, |most, value| most.max(value.abs()));
-        let certain = values
-            .iter()
-            .filter(|value| value.abs() > CERTAIN * largest);
-        let signs: Vec<bool> = certain.map(|value| *value > 0.0).collect();
+        let certain = inside.filter(|[value, size]| value.abs() > CERTAIN * size);
+        let signs: Vec<bool> = certain.map(|[value, _]| value > 0.0).collect();
         signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
     }
 
@@ -105,7 +102,10 @@ impl Seen {
     }
 
     fn inflections(&self) -> usize {
-        self.changes(|u| self.at(u, 1).perp_dot(self.at(u, 2)))
+        self.changes(|u| {
+            let [first, second] = [1, 2].map(|order| self.at(u, order));
+            [first.perp_dot(second), first.length() * second.length()]
+        })
     }
 }
 

@@ -9,7 +9,7 @@ use super::counted_points::CountedPoints;
 use super::error::FitError;
 use super::levels::{Level, Task, size};
 use super::mirror::Mirror;
-use super::neighbours::with_middles;
+use super::neighbours::{self, with_middles};
 use super::problem::{Data, EndCondition, EndValue};
 use super::slope_coefficients::SlopeTables;
 use crate::geometry::control_polygon::check_size;
@@ -36,6 +36,11 @@ const POINTS_A_VERTEX: usize = 2;
 
 /// Points that are off by no more than this, of a size of 1 or less, are met.
 const EXACT: f64 = 1e-11;
+
+/// Coordinates of the middle are multiples of the first share of the unit, and vertices of straight lines of the second:
+/// their sums have no rounding.
+const GRID: f64 = 1.0 / (1 << 20) as f64;
+const LINE_GRID: f64 = 1.0 / (1_u64 << 43) as f64;
 
 /// Points beyond the extrema of their discrete curvature.
 const OUTER: usize = 4;
@@ -183,7 +188,8 @@ pub fn fit_plane(
     if progress.is_cancelled() && !progress.is_late() {
         return Err(FitError::Cancelled);
     }
-    let level = level.or_else(|| fit.task_of_all(0, None).smoothed());
+    let smoothed = || fit.task(0, None).smoothed().map(|level| fit.refined(level));
+    let level = level.or_else(smoothed);
     let level = level.ok_or(FitError::NotFound)?;
     let fitted = fit.finished(points, &level)?;
     Ok(Fitted {
@@ -215,11 +221,13 @@ impl Prepared {
         check_size(asked.degree, asked.count.unwrap_or(asked.degree + 1), false)?;
         let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let mut middle = 0.5 * low + 0.5 * high;
+        let unit = 2.0_f64.powi((high - low).max_element().log2().ceil() as i32);
+        // Of few digits, so that straight curves stay straight when they are moved back.
+        let middle = 0.5 * low + 0.5 * high;
+        let mut middle = unit * (middle / (unit * GRID)).round() * GRID;
         if let Some(mirror) = asked.mirror {
             middle = mirror.onto_axis(middle);
         }
-        let unit = 2.0_f64.powi((high - low).max_element().log2().ceil() as i32);
         let degree = asked.degree;
         if !(unit > 0.0 && unit.is_finite()) {
             let found = points.len().min(1);
@@ -251,7 +259,12 @@ impl Prepared {
                 needed: extrema + OUTER,
             });
         }
-        let (noise, weights) = (counted.noise, counted.weights);
+        // Of many points neighbours are nearer to each other than their noise, which hides it.
+        let noise = match found > MANY {
+            true => neighbours::noise(&every(&counted.points)),
+            false => counted.noise,
+        };
+        let weights = counted.weights;
         let counting: Vec<DVec2> = counted.points.iter().map(|it| it.truncate()).collect();
         let tolerance = match asked.tolerance {
             Some(tolerance) => tolerance / unit,
@@ -299,9 +312,7 @@ impl Prepared {
         let heavy: Vec<(DVec3, f64)> = heavy
             .map(|((at, weight), _)| (at.extend(0.0), *weight))
             .collect();
-        let numbers = self.kept();
-        let kept = numbers.iter().filter_map(|number| heavy.get(*number));
-        let kept: Vec<(DVec3, f64)> = kept.copied().collect();
+        let kept = every(&heavy);
         let counting = kept.len();
         let (points, weights): (Vec<DVec3>, Vec<f64>) = kept.iter().copied().unzip();
         let (all, counts) = match asked.periodic {
@@ -324,21 +335,15 @@ impl Prepared {
         })
     }
 
-    /// The numbers of the points that count which are kept of many.
-    fn kept(&self) -> Vec<usize> {
-        let last = self.counting.saturating_sub(1);
-        let step = last.div_ceil(ENOUGH).max(1);
-        let mut kept: Vec<usize> = (0..last).step_by(step).collect();
-        kept.push(last);
-        kept
-    }
-
     /// The parameters of all points by those of some of them.
     fn places_of_all(&self, thinned: &Self, places: &[f64], end: f64, periodic: bool) -> Vec<f64> {
         let heavy = places.iter().zip(&thinned.counts);
         let heavy = heavy.filter_map(|(place, counts)| counts.then_some(*place));
-        let mut known: Vec<(f64, f64)> =
-            self.kept().iter().map(|it| *it as f64).zip(heavy).collect();
+        let mut known: Vec<(f64, f64)> = kept_of(self.counting)
+            .iter()
+            .map(|it| *it as f64)
+            .zip(heavy)
+            .collect();
         if let (true, Some((_, first))) = (periodic, known.first().copied()) {
             known.push((self.counting as f64, first + end));
         }
@@ -363,6 +368,21 @@ impl Prepared {
         };
         self.counts.iter().map(place).collect()
     }
+}
+
+/// The numbers of those that are kept of many.
+fn kept_of(count: usize) -> Vec<usize> {
+    let last = count.saturating_sub(1);
+    let step = last.div_ceil(ENOUGH).max(1);
+    let mut kept: Vec<usize> = (0..last).step_by(step).collect();
+    kept.push(last);
+    kept
+}
+
+/// Keep some of many, evenly, with the first and the last one.
+fn every<T: Copy>(all: &[T]) -> Vec<T> {
+    let kept = kept_of(all.len()).into_iter();
+    kept.filter_map(|number| all.get(number).copied()).collect()
 }
 
 /// The conditions at the ends of an open curve.
@@ -512,7 +532,7 @@ impl Fit<'_> {
     /// The best fit, what each number of extrema reaches, and the fewest that keep the tolerance where the number
     /// asked for does not.
     fn found(&self) -> (Option<Level>, Vec<TradeOff>, Option<usize>) {
-        if let Some(exact) = self.exact() {
+        if let Some(exact) = self.straight().or_else(|| self.exact()) {
             return (Some(exact), Vec::new(), None);
         }
         let Extrema::Exactly(extrema) = self.asked.extrema else {
@@ -533,10 +553,45 @@ impl Fit<'_> {
         (level, all, least)
     }
 
+    /// The straight line that the points lie on: its vertices are even to the last digit, so that nothing bends.
+    fn straight(&self) -> Option<Level> {
+        let (prepared, asked) = (self.whole, self.asked);
+        let bends = asked.inflections.is_some_and(|it| it > 0)
+            || asked.extrema.number().is_some_and(|it| it > 0);
+        let is_free = prepared.ends.is_empty() && asked.mirror.is_none();
+        if asked.periodic || bends || !is_free {
+            return None;
+        }
+        let (first, last) = (*prepared.points.first()?, *prepared.points.last()?);
+        let way = last - first;
+        let along = way.try_normalize()?;
+        let share = |point: &DVec2| (*point - first).dot(way) / way.length_squared();
+        let shares: Vec<f64> = prepared.points.iter().map(share).collect();
+        let off = |point: &DVec2| (*point - first).perp_dot(along).abs();
+        let lie_on_it = prepared.points.iter().all(|point| off(point) <= EXACT);
+        if !lie_on_it || !shares.is_sorted() {
+            return None;
+        }
+        let degree = asked.degree;
+        let count = asked.count.unwrap_or(degree + 1);
+        let segments = (count - degree) as f64;
+        let even = |vector: DVec2| (vector / LINE_GRID).round() * LINE_GRID;
+        let leg = even(way / segments);
+        // The curve begins in the middle of the vertices that make its first point.
+        let begin = even(first - 0.5 * (degree - 1) as f64 * leg);
+        let vertices = (0..count).map(|index| begin + index as f64 * leg).collect();
+        let places = shares.iter().map(|share| share * segments).collect();
+        Some(self.task_of_all(0, None).line(count, vertices, places))
+    }
+
     /// The curve of least squares if it meets the points, as one with as many vertices as points or a straight
     /// line does, and has the features asked for.
     fn exact(&self) -> Option<Level> {
-        let mut level = self.task_of_all(0, None).smoothed()?;
+        if !std::ptr::eq(self.prepared, self.whole) {
+            // So many points are on no such curve.
+            return None;
+        }
+        let mut level = self.task(0, None).smoothed()?;
         self.show(&level);
         if level.largest > EXACT || !self.prepared.ends.is_empty() {
             return None;

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::descent::descend;
 use super::first_places::{closed_shares, open_shares};
-use super::problem::{Data, Problem, Start};
+use super::problem::{Data, PlacedCurve, Problem, Start};
 use super::sign_runs::SignRuns;
 use super::slope_coefficients::SlopeTables;
 use super::splines::Splines;
@@ -58,6 +58,9 @@ const WEIGHED_STEPS: usize = 10;
 const FAR_LEVEL: usize = 3;
 const FAR: f64 = 8.0;
 const FAR_GAIN: f64 = 0.85;
+
+/// Extrema nearer to each other or to an end than this share of a segment are none to the eye.
+const VISIBLE: f64 = 0.02;
 
 /// Steps to the nearest places of points whose places are known roughly.
 const PROJECTIONS: usize = 8;
@@ -244,6 +247,30 @@ impl<'a> Task<'a> {
         curves.min_by(|a, b| a.rms.total_cmp(&b.rms))
     }
 
+    /// Measure a straight line.
+    pub(super) fn line(&self, count: usize, vertices: Vec<DVec2>, places: Vec<f64>) -> Level {
+        let problem = self.problem(count);
+        let mut curve = PlacedCurve { vertices, places };
+        problem.project(&mut curve, PROJECTIONS);
+        let [rms, largest] = problem.errors(&curve);
+        let slopes = SignRuns {
+            begins_positive: true,
+            cuts: Vec::new(),
+        };
+        Level {
+            splines: problem.splines,
+            start: Start {
+                curve,
+                slopes,
+                bends: None,
+            },
+            holds: true,
+            rms,
+            largest,
+            press: Vec::new(),
+        }
+    }
+
     /// Fit a level to these points, from their parameters.
     pub(super) fn refined(&self, level: Level, places: Vec<f64>) -> Level {
         let problem = self.problem(level.splines.count);
@@ -410,7 +437,15 @@ impl<'a> Task<'a> {
         let features = features.map(|it| Features::proved(&it, |_| !self.progress.is_cancelled()));
         features.flatten().is_some_and(|features| {
             let inflections = features.count(Feature::Inflection);
-            features.undecided.is_empty()
+            let extrema = features.curvature_extrema.iter();
+            let mut places: Vec<f64> = extrema.map(|it| 0.5 * (it.u[0] + it.u[1])).collect();
+            if !self.periodic {
+                places.insert(0, 0.0);
+                places.push(level.splines.end());
+            }
+            let are_visible = places.windows(2).all(|pair| pair[1] - pair[0] > VISIBLE);
+            are_visible
+                && features.undecided.is_empty()
                 && features.count(Feature::CurvatureExtremum) == self.extrema
                 && self.inflections.is_none_or(|asked| asked == inflections)
         })

@@ -28,6 +28,11 @@ const LEFT_OUT: f64 = 1.25;
 const CORNER: f64 = 0.5;
 const SHARPER: f64 = 4.0;
 
+/// Points a corner at least, but for a few corners, and the most corners: more of them are noise.
+const POINTS_A_CORNER: usize = 20;
+const FEW_CORNERS: usize = 8;
+const MOST_CORNERS: usize = 200;
+
 /// The weight of a point between two points, as a share of theirs.
 const LIGHT: f64 = 0.1;
 
@@ -69,7 +74,8 @@ pub(super) fn outliers(points: &[DVec3]) -> Vec<usize> {
     found
 }
 
-/// List the inner points where the direction turns sharply, and much more than beside them.
+/// List the inner points where the direction turns sharply, and much more than beside them. Where they are very many
+/// they are noise, and there is none.
 pub fn corners(points: &[DVec2]) -> Vec<usize> {
     let chords: Vec<DVec2> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let directions = unwrapped(&chords);
@@ -91,10 +97,13 @@ pub fn corners(points: &[DVec2]) -> Vec<usize> {
         let most = near.fold(0.0_f64, |most, turn| most.max(*turn));
         turns[*index] > CORNER && turns[*index] > SHARPER * most
     };
-    (0..turns.len())
-        .filter(is_corner)
-        .map(|turn| turn + 1)
-        .collect()
+    let found = (0..turns.len()).filter(is_corner).map(|turn| turn + 1);
+    let found: Vec<usize> = found.collect();
+    let most = (points.len() / POINTS_A_CORNER + FEW_CORNERS).min(MOST_CORNERS);
+    match found.len() > most {
+        true => Vec::new(),
+        false => found,
+    }
 }
 
 /// Put a light point between each two points, on the cubic through two neighbours on each side, so that the curve
