@@ -638,8 +638,22 @@ impl Fit<'_> {
             let trade_off = self.trade_off(extrema, &levels);
             return (self.chosen(levels, is_for_tolerance), trade_off);
         }
+        let nearest = levels.last().cloned();
         let level = self.chosen(levels, is_for_tolerance);
         let level = level.map(|level| self.refined(level));
+        // What some of the points keep all need not keep.
+        let is_near = |level: &Level| level.largest <= self.prepared.tolerance;
+        let level = match (level, nearest) {
+            (Some(level), Some(nearest)) if is_for_tolerance && !is_near(&level) => {
+                let nearest = self.refined(nearest);
+                Some(if nearest.largest < level.largest {
+                    nearest
+                } else {
+                    level
+                })
+            }
+            (level, _) => level,
+        };
         let trade_off = self.trade_off(extrema, level.as_slice());
         (level, trade_off)
     }
