@@ -228,10 +228,11 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         false => corners(&points),
     };
     let pieces = pieces(points.len(), &corners, values);
-    let fitted = pieces
-        .iter()
-        .enumerate()
-        .map(|(index, piece)| piece.fit(&points, &asked, &progress.of_curve(index)));
+    let fitted = pieces.iter().enumerate().map(|(index, piece)| {
+        let share = |index: usize| index as f64 / pieces.len() as f64;
+        let own = progress.part(share(index), share(index + 1));
+        piece.fit(&points, &asked, &own.of_curve(index))
+    });
     let (requests, fitted): (Vec<PlaneFit>, Vec<Fitted>) =
         fitted.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
     let requirements = pieces.iter().zip(&requests).zip(&fitted);
@@ -256,12 +257,7 @@ pub fn left_out(input: &Operands, values: &Values) -> Result<Vec<usize>, Operati
     let points = input.points();
     let asked = asked(points.len(), values)?;
     let in_space = is_in_space(input);
-    let flat: Vec<DVec2> = points.iter().map(|point| point.truncate()).collect();
-    let corners = match in_space || asked.periodic || !values.switch(&SPLIT) {
-        true => Vec::new(),
-        false => corners(&flat),
-    };
-    let pieces = pieces(points.len(), &corners, values).into_iter();
+    let pieces = pieces_of(input, values).into_iter();
     let left_out = pieces.flat_map(|piece| {
         let own = &points[piece.first..=piece.last];
         let given = asked.outliers.as_ref().map(|numbers| piece.own(numbers));
@@ -271,7 +267,15 @@ pub fn left_out(input: &Operands, values: &Values) -> Result<Vec<usize>, Operati
         let left_out = counted.outliers.into_iter();
         left_out.map(move |number| number + piece.first)
     });
-    Ok(left_out.collect())
+    let mut left_out: Vec<usize> = left_out.collect();
+    // A corner belongs to two pieces.
+    left_out.dedup();
+    Ok(left_out)
+}
+
+/// Count the curves that a fit with some values makes.
+pub fn curves(input: &Operands, values: &Values) -> usize {
+    pieces_of(input, values).len()
 }
 
 /// The parameter with the value that leaves a point out too, or takes it back: a list of those left out. Points of
@@ -306,6 +310,20 @@ pub fn counts(input: &Operands, point: usize) -> bool {
 
 fn is_in_space(input: &Operands) -> bool {
     input.points().iter().any(|point| point.z != 0.0)
+}
+
+/// The pieces of the points, one for each curve.
+fn pieces_of(input: &Operands, values: &Values) -> Vec<Piece> {
+    let points = input.points();
+    let is_whole = is_in_space(input) || values.switch(&PERIODIC) || !values.switch(&SPLIT);
+    let corners = match is_whole {
+        true => Vec::new(),
+        false => {
+            let flat: Vec<DVec2> = points.iter().map(|point| point.truncate()).collect();
+            corners(&flat)
+        }
+    };
+    pieces(points.len(), &corners, values)
 }
 
 /// The pieces of so many points, which are split at corners if the values say so.
@@ -571,7 +589,9 @@ fn figures(fitted: &[Fitted]) -> Vec<Figure> {
     let sum = |of: fn(&Fitted) -> usize| fitted.iter().map(of).sum();
     let worst = |of: fn(&Fitted) -> f64| fitted.iter().map(of).fold(0.0, f64::max);
     let outliers = fitted.iter().flat_map(|found| &found.outliers);
-    let outliers: Vec<usize> = outliers.map(|(index, _)| *index).collect();
+    let mut outliers: Vec<usize> = outliers.map(|(index, _)| *index).collect();
+    // A corner belongs to two pieces.
+    outliers.dedup();
     let rows = |found: &Fitted| {
         let rows = found.trade_off.iter();
         let rows = rows.map(|it| vec![it.extrema as f64, it.vertices as f64, it.rms, it.largest]);

@@ -19,7 +19,7 @@ const WIDTHS: [f32; 2] = [2.5 * STEP, 8.0 * STEP];
 /// The height of the lowest bar, as a share.
 const LEAST: f64 = 0.1;
 
-/// The ratio of distances that fills the height at least: less of a difference looks smaller.
+/// Distances that differ by less than this factor are compared by themselves, others by their logarithms.
 const DECADE: f64 = 10.0;
 
 /// What a number of extrema reaches.
@@ -149,15 +149,15 @@ impl TradeOff {
         response
     }
 
-    /// The height of a bar, by the logarithm of its distance, as a share.
+    /// The height of a bar as a share: by its distance, or by the logarithm where distances differ by much.
     fn share(&self, largest: f64) -> f64 {
-        let all = self
-            .rows
-            .iter()
-            .map(|row| row.largest.max(f64::MIN_POSITIVE).ln());
+        let all = self.rows.iter().map(|row| row.largest);
+        let all = all.map(|largest| largest.max(f64::MIN_POSITIVE));
         let low = all.clone().fold(f64::INFINITY, f64::min);
-        let high = all.fold(f64::NEG_INFINITY, f64::max);
-        let place = (largest.max(f64::MIN_POSITIVE).ln() - low) / (high - low).max(DECADE.ln());
-        LEAST + (1.0 - LEAST) * place
+        let high = all.fold(f64::MIN_POSITIVE, f64::max);
+        match high / low < DECADE {
+            true => largest / high,
+            false => LEAST + (1.0 - LEAST) * (largest.max(low) / low).ln() / (high / low).ln(),
+        }
     }
 }

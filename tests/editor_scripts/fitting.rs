@@ -7,7 +7,7 @@ use batten::document::{Document, Edit, Reference};
 use batten::editor::{
     Command, Editor, HoverScene, Input, Key, Look, Mark, OperationInProgress, ToolKind,
 };
-use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
+use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm, find};
 use batten::operations::Value;
 use glam::{DVec2, DVec3};
 
@@ -330,5 +330,38 @@ fn a_search_that_is_left_leaves_nothing_behind() {
             // The panel stays: then its search does, or has ended with a report.
             assert!(is_pending(&script), "{way}");
         }
+    }
+}
+
+#[test]
+fn an_approximation_that_is_stopped_keeps_the_best_found() {
+    for from_curve in [false, true] {
+        let mut script = Script::example("s-curve");
+        if !from_curve {
+            let kind = find("conical-spiral").expect("a kind");
+            script.command(Command::AddReference(kind));
+        }
+        let before = script.editor.document().clone();
+        script.editor.run_in_background(Duration::ZERO, || ());
+        let begun = script.editor.preview_operation(operation("approximate"));
+        begun.expect("it can run");
+        for (name, value) in [
+            ("degree", Value::Whole(2)),
+            ("tolerance", Value::List(vec![1e-12])),
+            ("time-limit", Value::List(vec![1e9])),
+        ] {
+            let set = script.editor.operating().set_values(&[(name, value)]);
+            set.expect("a value");
+        }
+        let is_shown = |script: &Script| !script.editor.document().is_same(&before);
+        wait_until(&mut script, is_shown);
+        assert!(is_pending(&script), "the search goes on");
+        script.editor.operating().stop();
+        wait_until(&mut script, |script| !is_pending(script));
+        let report = serde_json::to_value(script.trial_report()).expect("a report");
+        let remarks = report["remarks"].to_string();
+        assert!(remarks.contains("Stopped: "), "{remarks}");
+        script.editor.operating().leave();
+        assert!(script.editor.document().is_same(&before));
     }
 }

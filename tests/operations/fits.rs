@@ -2,6 +2,7 @@
 
 use batten::document::Document;
 use batten::geometry::Progress;
+use batten::operations::fit::{curves, left_out, with_point_switched};
 use batten::operations::{Deviation, Operands, Report, Value};
 use glam::DVec3;
 
@@ -188,4 +189,59 @@ fn a_symmetric_fit_to_points_that_are_not_says_so() {
         even.unwrap_err(),
         "Curvature extrema: 2 is out of range: odd, as the curve is symmetric, is needed"
     );
+}
+
+#[test]
+fn the_points_that_are_left_out_are_known_before_the_fit() {
+    let corner = |index: usize| match index {
+        0..25 => DVec3::new(0.1 * index as f64, 0.1 * (0.12 * index as f64).sin(), 0.0),
+        _ => DVec3::new(2.4, 0.026 + 0.1 * (index as f64 - 24.0), 0.0),
+    };
+    let mut corner: Vec<DVec3> = (0..49).map(corner).collect();
+    corner[35].x += 0.15;
+    let mut spiral = wave(40);
+    for (index, point) in spiral.iter_mut().enumerate() {
+        point.z = 0.1 * index as f64;
+    }
+    spiral[20].z += 0.7;
+    let mut flat = wave(40);
+    flat[17].y += 0.4;
+    for (points, texts) in [
+        (&flat, &[][..]),
+        (&flat, &[("outliers", "keep")]),
+        (&flat, &[("outliers", "3,17,30")]),
+        (&flat, &[("tolerance", "0.5")]),
+        (&corner, &[("split-corners", "on")]),
+        (&corner, &[("split-corners", "on"), ("outliers", "24,40")]),
+        (&spiral, &[]),
+    ] {
+        let fit = operation("fit");
+        let input = Operands::new(&Document::default(), []).expect("no curves");
+        let input = input.with_points(points.clone());
+        let read = |(name, text): &(&'static str, &str)| {
+            let mut parameters = fit.parameters.iter();
+            let parameter = parameters.find(|it| it.name == *name).expect("a parameter");
+            (*name, parameter.read(text).expect("a value"))
+        };
+        let count = ("count", Value::List(vec![9.0]));
+        let given = texts.iter().map(read).chain([count]);
+        let values = fit.values(&input, given).expect("values");
+        let outcome = fit.run(&input, &values, &Progress::default());
+        let outcome = outcome.expect("a fit");
+        let report = serde_json::json!(Report::new(fit, &input, &outcome));
+        let known = left_out(&input, &values).expect("points");
+        assert_eq!(
+            report["outlying_points"],
+            serde_json::json!(known),
+            "{texts:?}"
+        );
+        assert_eq!(curves(&input, &values), outcome.edits.len(), "{texts:?}");
+        for point in known {
+            let (name, switched) =
+                with_point_switched(&input, &values, point).expect("another value");
+            let without = fit.values_with(&input, &values, [(name, switched)]);
+            let without = left_out(&input, &without.expect("values")).expect("points");
+            assert!(!without.contains(&point), "{texts:?} {point}");
+        }
+    }
 }

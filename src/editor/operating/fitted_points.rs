@@ -12,6 +12,8 @@ use crate::geometry::{Nearest, Progress};
 pub struct FittedPoints {
     /// The numbers of those that the present values leave out, in order.
     pub(super) left_out: Vec<usize>,
+    /// How many curves the present values ask for.
+    pub(super) curves: usize,
     /// The nearest place of each point; empty until it is measured.
     pub(super) nearest: Vec<Nearest>,
 }

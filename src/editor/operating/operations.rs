@@ -203,12 +203,16 @@ impl Operating<'_> {
         let Some(best) = watched.and_then(Progress::take_shown) else {
             return;
         };
+        // A whole result of other values is better than a part of the new one.
+        if best.len() < current.points.curves && current.finished().is_some() {
+            return;
+        }
         let (input, values) = (&current.input, &current.values);
         let edits = current.operation.edits_of_best(input, values, best);
         // What cannot be shown is no fault of the user: the result tells what is wrong.
         if self.workspace.update(edits).is_ok() {
             self.document_changed();
-            self.activate_made();
+            self.activate_made(false);
             self.measure_points();
         }
     }
@@ -339,7 +343,7 @@ impl Operating<'_> {
         };
         current.pending = true;
         current.stops = false;
-        current.update_left_out();
+        current.update_points();
         let operation = current.operation;
         let (input, values) = (current.input.clone(), current.values.clone());
         let job = move |progress: &Progress| {
@@ -400,6 +404,7 @@ impl Operating<'_> {
             return;
         };
         let succeeds = run.as_ref().is_ok_and(Run::succeeds);
+        let is_first_result = current.run.is_none();
         // The handles of the last success lead back to one.
         if let Ok(run) = &run {
             current.handles.clone_from(&run.outcome.handles);
@@ -410,7 +415,7 @@ impl Operating<'_> {
         match current.stage {
             Stage::Previewed(_) => {
                 self.show_run();
-                self.activate_made();
+                self.activate_made(is_first_result);
             }
             Stage::Applied { steps, .. } => {
                 // A run that fails leaves the applied step as it is.
@@ -514,8 +519,8 @@ impl Operating<'_> {
     }
 
     /// Make a new curve the active one, compare it with the other new curve, or with the reference or
-    /// the curve that it follows, and bring it into sight the first time.
-    fn activate_made(&mut self) {
+    /// the curve that it follows, and bring it into sight the first time; the comb suits the first result too.
+    fn activate_made(&mut self, is_first_result: bool) {
         let Some(current) = self.current() else {
             return;
         };
@@ -544,25 +549,22 @@ impl Operating<'_> {
         {
             self.view.compared = Some(other);
         }
-        if is_first {
-            if follows {
-                let document = self.workspace.document();
-                let reference = was_active.filter(|id| document.reference(*id).is_some());
-                let compared = reference.or(followed).or(self.view.compared);
-                self.view.compared = compared;
-            }
-            // A curve lies where its points are, though its vertices may be far away.
-            let look = match self.sees_points() {
-                false => Some(Look::New(made)),
-                true => (made.len() == self.workspace.document().curves().count())
-                    .then_some(Look::ResetComb),
-            };
-            let layers = self.hand.layers(self.view.layers);
-            let shown = self.hand.shown(self.workspace, layers);
-            if let Some(look) = look {
-                self.view.look(look, shown);
-            }
+        if is_first && follows {
+            let document = self.workspace.document();
+            let reference = was_active.filter(|id| document.reference(*id).is_some());
+            let compared = reference.or(followed).or(self.view.compared);
+            self.view.compared = compared;
         }
+        // A curve lies where its points are, though its vertices may be far away.
+        let is_alone = made.len() == self.workspace.document().curves().count();
+        let look = match self.sees_points() {
+            false if is_first => Look::New(made),
+            true if is_alone && (is_first || is_first_result) => Look::ResetComb,
+            _ => return,
+        };
+        let layers = self.hand.layers(self.view.layers);
+        let shown = self.hand.shown(self.workspace, layers);
+        self.view.look(look, shown);
     }
 
     /// Deselect vertices that the document no longer has.

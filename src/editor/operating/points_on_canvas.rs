@@ -27,11 +27,12 @@ impl OperationInProgress {
     }
 
     /// Bring the points up to date with other values.
-    pub(super) fn update_left_out(&mut self) {
+    pub(super) fn update_points(&mut self) {
         if self.fits_points()
             && let Ok(left_out) = fit::left_out(&self.input, &self.values)
         {
             self.points.left_out = left_out;
+            self.points.curves = fit::curves(&self.input, &self.values);
         }
     }
 
@@ -177,6 +178,11 @@ impl Operating<'_> {
         let document = self.workspace.document();
         let made = current.made_curves(document).into_iter();
         let curves: Vec<Arc<Curve>> = made.filter_map(|id| document.curve(id).cloned()).collect();
+        // Points of a piece that has no curve yet have no distance.
+        let curves = match curves.len() < current.points.curves {
+            true => Vec::new(),
+            false => curves,
+        };
         let points = current.input.points().to_vec();
         let job = move |progress: &Progress| nearest(&points, &curves, progress);
         if let Some(current) = self.current_mut() {
