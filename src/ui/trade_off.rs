@@ -83,7 +83,8 @@ impl TradeOff {
         if self.rows.len() < 2 {
             return None;
         }
-        widgets::caption(ui, "Largest distance by curvature extrema");
+        let caption = widgets::caption(ui, "Largest distance by curvature extrema");
+        caption.on_hover_text("Click a bar to ask for its number of extrema");
         let [height, below] = HEIGHTS;
         let room = vec2(ui.available_width(), height + below);
         let (rect, _) = ui.allocate_exact_size(room, Sense::hover());
@@ -117,9 +118,8 @@ impl TradeOff {
         let words = format!("{}: {} off", row.name(), row.distance());
         let response = ui.interact(cell, id, Sense::click());
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_present, &words));
-        let response = response
-            .on_hover_cursor(CursorIcon::PointingHand)
-            .on_hover_text(format!("{words}. Click to ask for it"));
+        // Its figures stand below the bars, where a tooltip would hide them.
+        let response = response.on_hover_cursor(CursorIcon::PointingHand);
         let [height, below] = HEIGHTS;
         let share = self.share(row.largest) as f32;
         let foot = cell.bottom() - below;
