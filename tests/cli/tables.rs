@@ -161,10 +161,7 @@ fn a_column_of_weights_counts_in_a_fit_and_is_kept() {
         &["apply", "fit", "scan.csv", "out.batten", "--weights", "5"],
         "scan.csv: line 1: the table has no column 5: it has 1 “station”, 2 “x”, 3 “y”, 4 “trust”",
     );
-    let bad = Folder::new().with(
-        "scan.csv",
-        table.replace("9;0.9;0.81;2.5", "9;0.9;0.81;-1"),
-    );
+    let bad = Folder::new().with("scan.csv", table.replace("9;0.9;0.81;2.5", "9;0.9;0.81;-1"));
     let problem =
         "line 11, reference 1 “points 1”: point 9 has no weight that can be used: from 0 to 1e100";
     bad.refused(
