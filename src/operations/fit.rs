@@ -432,10 +432,8 @@ impl Piece {
             found: found.deviation,
             most,
         });
-        // Without a wish the curve is as near as the noise lets expect, unless time or a symmetry forbid it.
-        let is_rough = (found.stopped || asked.mirror.is_some())
-            && asked.extrema == Extrema::Fewest
-            && found.deviation > found.tolerance;
+        // Without a wish the curve is as near as the noise lets expect.
+        let is_rough = asked.extrema == Extrema::Fewest && found.deviation > found.tolerance;
         let failed = (!found.holds || is_rough).then_some(Requirement::Failed { left: None });
         let places = places.filter(|_| !asked.periodic);
         features

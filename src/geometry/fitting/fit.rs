@@ -49,9 +49,11 @@ const OUTER: usize = 4;
 const MOST_EXTREMA: usize = 80;
 
 /// Where the points are farther than so many tolerances, from this number of extrema on, the next numbers are left
-/// out: half as many as were tried. If that was too far, they are bisected.
+/// out: half as many as were tried, and from the second number on a quarter as many even where points are nearer. If
+/// that was too far, they are bisected.
 const FAR: f64 = 6.0;
 const SKIPS_FROM: usize = 4;
+const STRIDES_FROM: usize = 8;
 
 /// So many further numbers are tried for so long beside the fewest, so that there is something to choose from.
 const MORE: usize = 2;
@@ -683,10 +685,13 @@ impl Fit<'_> {
                 break;
             }
             missed = Some(extrema);
-            let skipped = match found.is_far && extrema >= SKIPS_FROM {
-                true => extrema / 2 / step * step,
-                false => 0,
+            let skipped = match extrema {
+                few if few < SKIPS_FROM => 0,
+                _ if found.is_far => extrema / 2,
+                few if few < STRIDES_FROM => 0,
+                many => many / 4,
             };
+            let skipped = skipped / step * step;
             extrema = match extrema + step + skipped {
                 next if extrema < most => {
                     let last = extrema + (most - extrema) / step * step;
