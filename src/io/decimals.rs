@@ -33,17 +33,22 @@ impl Decimals {
         line: usize,
     ) -> Result<f64, Problem> {
         let text = text.trim();
-        let mark = match (text.contains('.'), text.contains(',')) {
+        // Typesetters and some spreadsheets write the minus sign itself.
+        let plain = text.replace('\u{2212}', "-");
+        let ungrouped = ungrouped(&plain);
+        let is_grouped = ungrouped.is_some();
+        let plain = ungrouped.unwrap_or(plain);
+        let mark = match (plain.contains('.'), plain.contains(',')) {
             (false, false) => None,
             (true, _) => Some(DecimalMark::Point),
             (false, true) => Some(DecimalMark::Comma),
         };
         let value: Option<f64> = match mark {
-            Some(DecimalMark::Comma) => text.replacen(',', ".", 1).parse().ok(),
-            _ => text.parse().ok(),
+            Some(DecimalMark::Comma) => plain.replacen(',', ".", 1).parse().ok(),
+            _ => plain.parse().ok(),
         };
         // Fortran writes the exponents of doubles as 1.0D-03.
-        let of_fortran = || text.replacen(['d', 'D'], "e", 1).parse().ok();
+        let of_fortran = || plain.replacen(['d', 'D'], "e", 1).parse().ok();
         let value = value
             .or_else(of_fortran)
             .ok_or_else(|| Problem::NotANumber {
@@ -62,7 +67,7 @@ impl Decimals {
             lines.push(line);
         }
         if mark == Some(DecimalMark::Comma) {
-            if !may_be_grouped(text) {
+            if is_grouped || !may_be_grouped(&plain) {
                 self.is_proved = true;
             } else if self.doubtful.is_none() {
                 self.doubtful = Some((line, text.to_owned()));
@@ -102,6 +107,22 @@ fn has_digits(text: &str) -> bool {
     let digits = text.split(['e', 'E', 'd', 'D']).next();
     let digits = digits.unwrap_or_default();
     digits.bytes().any(|digit| (b'1'..=b'9').contains(&digit))
+}
+
+/// Take the marks between thousands out of a number that can be read in one way only: 1.234,5 or 1,234.5, or with
+/// narrow or hard spaces or apostrophes between the thousands.
+fn ungrouped(text: &str) -> Option<String> {
+    let last = text.rfind(['.', ','])?;
+    let (whole, decimals) = text.split_at(last);
+    let grouping = |mark: &char| ['.', ',', '\'', '\u{2019}', '\u{a0}', '\u{202f}'].contains(mark);
+    let mark = whole.chars().find(grouping)?;
+    let mut groups = whole.trim_start_matches(['+', '-']).split(mark);
+    let is_number = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
+    let head = groups.next()?;
+    let is_whole = (1..=3).contains(&head.len())
+        && is_number(head)
+        && groups.all(|group| group.len() == 3 && is_number(group));
+    (is_whole && !decimals.starts_with(mark)).then(|| whole.replace(mark, "") + decimals)
 }
 
 /// Whether a number with a comma can be a whole one with its thousands set apart, such as 12,345.
@@ -159,7 +180,7 @@ mod tests {
             );
             assert_eq!(read(&["7", text, "8"]), Err(expected), "{text}");
         }
-        for text in ["1,234,567", "1.234,5", "1,234.5", ",", "1,5x"] {
+        for text in ["1,234,567", "1.23,5", "1,2345.5", "1.234.5", ",", "1,5x"] {
             let expected = format!("“{text}” in column x is not a number");
             assert_eq!(read(&[text]), Err(expected));
         }

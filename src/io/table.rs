@@ -35,7 +35,7 @@ use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
 use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, WEIGHT, vertex_columns};
 use super::table_header::{CurveHeader, TableHeader, begins_table};
-use super::table_lines::{Fields, LineContent, TableLine, lines, separator};
+use super::table_lines::{COMMENT_MARKS, Fields, LineContent, TableLine, lines, separator};
 use super::table_points::{PointReader, PointSection};
 use super::text::text;
 use crate::document::{Curve, Document, Reference};
@@ -132,8 +132,9 @@ fn read_columns(bytes: &[u8], choice: Option<&ColumnChoice>) -> Result<Reading, 
 /// Take bytes as text with the line ends of this program. Points in other text than UTF-8 are read as
 /// Latin-1, which old titles are in: numbers are the same.
 fn decoded<'a>(bytes: &'a [u8], remarks: &mut Remarks) -> Result<Cow<'a, str>, ReadError> {
-    let text = match text(bytes) {
-        Err(error) if error.problem == Problem::NotUtf8 => {
+    let text = match (of_utf16(bytes), text(bytes)) {
+        (Some(text), _) => Cow::Owned(text),
+        (None, Err(error)) if error.problem == Problem::NotUtf8 => {
             let latin: String = bytes.iter().copied().map(char::from).collect();
             if latin.lines().any(begins_curve) {
                 return Err(error);
@@ -141,13 +142,28 @@ fn decoded<'a>(bytes: &'a [u8], remarks: &mut Remarks) -> Result<Cow<'a, str>, R
             remarks.add(Remark::Latin1);
             Cow::Owned(latin)
         }
-        text => Cow::Borrowed(text?),
+        (None, text) => Cow::Borrowed(text?),
     };
     // A carriage return alone ends a line too.
     Ok(match text.contains('\r') {
         true => Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")),
         false => text,
     })
+}
+
+/// Take bytes as UTF-16, which begins with its mark.
+fn of_utf16(bytes: &[u8]) -> Option<String> {
+    let (mark, units) = bytes.split_at_checked(2)?;
+    let of_unit: fn([u8; 2]) -> u16 = match mark {
+        [0xff, 0xfe] => u16::from_le_bytes,
+        [0xfe, 0xff] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let units = units
+        .chunks_exact(2)
+        .map(|unit| of_unit([unit[0], unit[1]]));
+    let units: Vec<u16> = units.collect();
+    Some(String::from_utf16_lossy(&units))
 }
 
 fn begins_curve(line: &str) -> bool {
@@ -202,7 +218,8 @@ fn sections<'a>(
 
 /// Take a comment such as `# x y` for the names of columns.
 fn commented_names(line: &str, separator: char) -> Option<Fields<'_>> {
-    let names = line.trim_start_matches(['"', ' ', '\t', '#']);
+    let is_mark = |it: char| ['"', ' ', '\t', '/'].contains(&it) || COMMENT_MARKS.contains(&it);
+    let names = line.trim_start_matches(is_mark);
     let fields = [separator, ' '].map(|separator| Fields::of(names, separator));
     let are_names = |fields: &Fields| ColumnNames::of(fields).coordinates().is_some();
     fields.into_iter().find(are_names)

@@ -5,10 +5,14 @@ use std::borrow::Cow;
 use csv::{ReaderBuilder, StringRecord};
 
 use super::decimals::is_number;
+use super::table_columns::COLUMNS;
 use super::table_header::begins_table;
 
 /// What may stand between fields, in the order of preference; a space stands for any run of blanks.
 const SEPARATORS: [char; 4] = [';', '\t', ',', ' '];
+
+/// What comments begin with, beside `//`; `#` begins the line above a curve's table too.
+pub(super) const COMMENT_MARKS: [char; 3] = ['#', '%', '!'];
 
 /// How many rows of numbers decide on the separator. More would read large files twice.
 const DECIDING: usize = 256;
@@ -29,7 +33,7 @@ pub(super) struct TableLine<'a> {
 pub(super) enum LineContent<'a> {
     /// Nothing but separators.
     Blank,
-    /// A line that begins with # but no table.
+    /// A line that begins with a mark of comments but no table.
     Comment,
     /// The line above a table, without the quotation marks of a spreadsheet.
     Header(Cow<'a, str>),
@@ -50,7 +54,8 @@ impl<'a> Fields<'a> {
     /// Split a line at a separator. A quoted field may hold the separator.
     pub(super) fn of(line: &'a str, separator: char) -> Self {
         let mut values: Vec<Cow<str>> = match separator {
-            ' ' => line.split_whitespace().map(Cow::Borrowed).collect(),
+            // In lists such as X=1.5 Y=2.5 a name may touch its number.
+            ' ' => words(line).map(Cow::Borrowed).collect(),
             _ if line.contains('"') => unquoted(line, separator),
             _ => line.split(separator).map(trimmed).collect(),
         };
@@ -68,11 +73,22 @@ impl<'a> Fields<'a> {
     /// Whether they can be a row of numbers: at least two, and no field that is two numbers.
     fn are_split(&self) -> bool {
         let is_unsplit = |value: &Cow<str>| {
-            let mut words = value.split_whitespace();
-            words.clone().count() > 1 && words.all(is_number)
+            let mut words = value.split(|mark: char| mark.is_whitespace() || mark == ';');
+            words.clone().count() > 1 && words.all(is_number) && !is_number(value)
         };
         self.numbers() >= 2 && !self.values.iter().any(is_unsplit)
     }
+}
+
+fn words(line: &str) -> impl Iterator<Item = &str> {
+    let parts = |word| match str::split_once(word, '=') {
+        Some((name, number)) if COLUMNS.iter().any(|it| it.eq_ignore_ascii_case(name)) => {
+            [name, number]
+        }
+        _ => [word, ""],
+    };
+    let words = line.split_whitespace().flat_map(parts);
+    words.filter(|word| !word.is_empty())
 }
 
 fn trimmed(field: &str) -> Cow<'_, str> {
@@ -133,7 +149,7 @@ pub(super) fn lines(text: &str, separator: char) -> impl Iterator<Item = TableLi
 
 fn content(line: &str, separator: char) -> LineContent<'_> {
     if is_commented(line) {
-        return match begins_table(line) {
+        return match line.contains('#') && begins_table(line) {
             false => LineContent::Comment,
             true => LineContent::Header(header(line, separator)),
         };
@@ -145,9 +161,10 @@ fn content(line: &str, separator: char) -> LineContent<'_> {
     }
 }
 
-/// Whether a line begins with `#`, in quotation marks or not.
+/// Whether a line begins with a mark of comments, in quotation marks or not.
 fn is_commented(line: &str) -> bool {
-    line.trim_start_matches(['"', ' ', '\t']).starts_with('#')
+    let begun = line.trim_start_matches(['"', ' ', '\t']);
+    begun.starts_with(COMMENT_MARKS) || begun.starts_with("//")
 }
 
 /// The text of a header: a spreadsheet may have quoted it, or padded it with separators.

@@ -15,6 +15,11 @@ use crate::document::Reference;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{PointList, ReferenceCurve, ReferenceError, ReferenceForm};
 
+/// What columns are called that number the rows.
+const COUNTERS: [&str; 10] = [
+    "nr", "no", "n", "#", "id", "i", "index", "num", "number", "point",
+];
+
 /// Lines of a table that hold points: those below one line with column names, if there is one.
 #[derive(Debug, Default)]
 pub(super) struct PointSection<'a> {
@@ -237,7 +242,14 @@ impl<'a> PointReader<'a> {
         count: usize,
     ) -> Option<(usize, ColumnNames)> {
         let above = section.fields().take_while(|(line, _)| *line < first);
-        let (line, fields) = above.filter(|(_, fields)| fields.numbers() == 0).last()?;
+        let is_rule = |fields: &Fields| {
+            fields
+                .values
+                .iter()
+                .all(|it| !it.contains(char::is_alphanumeric))
+        };
+        let words = above.filter(|(_, fields)| fields.numbers() == 0 && !is_rule(fields));
+        let (line, fields) = words.last()?;
         let names = ColumnNames::of(fields);
         // Words of a title are seldom divided by commas or semicolons.
         let is_title = match self.separator {
@@ -246,7 +258,13 @@ impl<'a> PointReader<'a> {
             '\t' => count == 2,
             _ => false,
         };
-        let are_names = names.coordinates().is_some() || (names.count() == count && !is_title);
+        // The last column of a spreadsheet may be empty in all rows.
+        let row = section.fields().find(|(line, _)| *line == first);
+        let width = row.map_or(count, |(_, fields)| fields.width);
+        let fits = [count, width].contains(&names.count());
+        let places = names.coordinates();
+        let are_there = places.is_some_and(|it| it.iter().all(|place| *place < count.max(width)));
+        let are_names = are_there || (fits && !is_title);
         are_names.then_some((line, names))
     }
 
@@ -267,7 +285,17 @@ impl<'a> PointReader<'a> {
                 .filter(|(_, fields)| is_number(&fields.values[*place]));
             2 * numbers.count() > rows.len()
         };
-        let others = (0..count).filter(|place| Some(*place) != weight);
+        let counts = |place: &usize| {
+            let is_named = names
+                .and_then(|names| names.get(*place))
+                .is_some_and(is_counter);
+            let numbers = rows
+                .iter()
+                .map(|(_, fields)| fields.values[*place].parse::<u64>().ok());
+            let numbers: Option<Vec<u64>> = numbers.collect();
+            is_named && numbers.is_some_and(|it| it.is_sorted_by(|a, b| *b == *a + 1))
+        };
+        let others = (0..count).filter(|place| Some(*place) != weight && !counts(place));
         let places: Vec<usize> = others.filter(are_mostly).collect();
         match (places.len(), names) {
             (2, Some(_)) => {
@@ -470,6 +498,12 @@ impl Layout {
             weight: weight.transpose()?,
         }))
     }
+}
+
+/// Whether a column's name is one of a row's number.
+fn is_counter(name: &str) -> bool {
+    let name = name.trim_end_matches('.').to_lowercase();
+    COUNTERS.contains(&name.as_str())
 }
 
 /// Find the most frequent number; of several the one that comes first.

@@ -592,3 +592,59 @@ fn a_point_table_keeps_titles_and_digits() {
     let none = crate::io::POINT_TABLE.write(&Document::from_curves([planar()]), None);
     assert!(matches!(none, Err(WriteError::NoPoints { .. })));
 }
+
+/// The points of the only list in a file.
+fn points_of(bytes: &[u8]) -> Vec<[f64; 2]> {
+    let reading = TABLE.read(bytes).unwrap();
+    let [list] = &reading.references[..] else {
+        panic!("{} lists", reading.references.len());
+    };
+    let ReferenceForm::Points(points) = list.curve.form() else {
+        panic!("no points");
+    };
+    let points = points.points().iter();
+    points.map(|point| [point.x, point.y]).collect()
+}
+
+#[test]
+fn marks_between_thousands_are_no_decimal_marks() {
+    let expected = [[1000.5, 2.0], [-1_234_567.25, 3.5], [0.5, 4.0]];
+    for text in [
+        "Station;Höhe\n1.000,5;2,0\n-1.234.567,25;3,5\n0,5;4,0\n",
+        "x;y\n1,000.5;2.0\n-1,234,567.25;3.5\n0.5;4.0\n",
+        "x;y\n1\u{a0}000,5;2,0\n-1\u{a0}234\u{a0}567,25;3,5\n0,5;4,0\n",
+        "x,y\n1'000.5,2.0\n-1'234'567.25,3.5\n0.5,4.0\n",
+        "x\ty\n1.000,5\t2,0\n\u{2212}1.234.567,25\t3,5\n0,5\t4,0\n",
+    ] {
+        assert_eq!(points_of(text.as_bytes()), expected, "{text}");
+    }
+    let mixed = "x;y\n1.000,5;2,0\n1.000;3,0\n";
+    assert!(TABLE.read(mixed.as_bytes()).is_err());
+}
+
+#[test]
+fn columns_that_are_empty_or_count_the_rows_are_no_coordinates() {
+    let expected = [[0.1, 0.3], [42.5, 10.0], [84.0, 20.0]];
+    for text in [
+        "Nr.;Station;Höhe;Bemerkung\n1;0,1;0,3;\n2;42,5;10,0;\n3;84;20;\n",
+        "index,a,b\n0,0.1,0.3\n1,42.5,10\n2,84,20\n",
+    ] {
+        assert_eq!(points_of(text.as_bytes()), expected, "{text}");
+    }
+}
+
+#[test]
+fn listings_of_other_programs_are_read() {
+    let expected = [[0.5, -1.0], [1500.25, 2.0], [2.0, 3.0]];
+    for text in [
+        "at point X=0.5 Y=-1.0 Z=0\nat point X=1500.25 Y= 2.0 Z=0\nat point X= 2.0 Y= 3.0 Z=0\n",
+        "% x y\n 0.5 -1.0\n 1500.25 2.0\n 2.0 3.0\n",
+        "//X Y\n 0.5 -1.0\n 1500.25 2.0\n 2.0 3.0\n",
+        "TITLE = \"wing\"\nVARIABLES = \"X\" \"Y\"\nZONE T=\"a\", I=3, F=POINT\n0.5D0 -1.0D0\n1500.25 2\n2 3\n",
+    ] {
+        assert_eq!(points_of(text.as_bytes()), expected, "{text}");
+        let units = text.encode_utf16().flat_map(u16::to_le_bytes);
+        let bytes: Vec<u8> = [0xff, 0xfe].into_iter().chain(units).collect();
+        assert_eq!(points_of(&bytes), expected, "{text} in UTF-16");
+    }
+}
