@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use csv::{ReaderBuilder, StringRecord};
 
 use super::decimals::is_number;
-use super::table_columns::COLUMNS;
 use super::table_header::begins_table;
 
 /// What may stand between fields, in the order of preference; a space stands for any run of blanks.
@@ -82,9 +81,7 @@ impl<'a> Fields<'a> {
 
 fn words(line: &str) -> impl Iterator<Item = &str> {
     let parts = |word| match str::split_once(word, '=') {
-        Some((name, number)) if COLUMNS.iter().any(|it| it.eq_ignore_ascii_case(name)) => {
-            [name, number]
-        }
+        Some((name, number)) if matches!(name, "x" | "y" | "z" | "X" | "Y" | "Z") => [name, number],
         _ => [word, ""],
     };
     let words = line.split_whitespace().flat_map(parts);

@@ -603,13 +603,10 @@ impl Fit<'_> {
             [Feature::CurvatureExtremum, Feature::Inflection].map(|it| features.count(it));
         let suits = match self.asked.extrema {
             Extrema::Exactly(asked) => extrema == asked && features.undecided.is_empty(),
-            // Another one may have fewer.
+            // Another one may have fewer, unless so few points leave no choice.
             Extrema::Fewest => {
-                extrema == 0
-                    || self
-                        .asked
-                        .count
-                        .is_some_and(|it| it >= self.prepared.counting)
+                let count = self.asked.count.unwrap_or(self.asked.degree + 1);
+                extrema == 0 || count >= self.prepared.counting
             }
         };
         let bends = self.asked.inflections;
