@@ -150,22 +150,68 @@ impl Layout {
     /// Add Σ wᵣ cᵣ cᵣᵀ over the rows.
     pub(super) fn add_squares(&self, rows: &Rows, weights: &[f64], sum: &mut BandMatrix) {
         let band = sum.band;
-        for ((first, row), weight) in rows.iter().zip(weights).filter(|(_, it)| **it != 0.0) {
+        let mut block = vec![0.0; rows.width * rows.width];
+        // Rows of the same vertices are summed up before they go into the band.
+        for (first, entries, weights) in rows.by_vertices(weights) {
+            block.fill(0.0);
+            match rows.width {
+                8 => add_to_block::<8>(&mut block, entries, weights),
+                12 => add_to_block::<12>(&mut block, entries, weights),
+                16 => add_to_block::<16>(&mut block, entries, weights),
+                20 => add_to_block::<20>(&mut block, entries, weights),
+                width => add_to_any_block(&mut block, width, entries, weights),
+            }
+            let lines = block.chunks_exact(rows.width.max(1)).enumerate();
             if self.is_folded {
                 let columns = self.columns(first);
-                for (a, below) in row.iter().zip(columns) {
-                    for (b, column) in row.iter().zip(columns).filter(|(_, it)| *it <= below) {
-                        sum.columns[column * band + below - column] += weight * a * b;
+                for ((_, line), below) in lines.zip(columns) {
+                    for (value, column) in line.iter().zip(columns).filter(|(_, it)| *it <= below) {
+                        sum.columns[column * band + below - column] += value;
                     }
                 }
             } else {
                 let columns = sum.columns[2 * first * band..].chunks_exact_mut(band);
-                for (a, column) in columns.take(row.len()).enumerate() {
-                    let factor = weight * row[a];
-                    for (sum, value) in column.iter_mut().zip(&row[a..]) {
-                        *sum += factor * value;
+                for ((a, line), column) in lines.zip(columns) {
+                    for (sum, value) in column.iter_mut().zip(&line[a..]) {
+                        *sum += value;
                     }
                 }
+            }
+        }
+    }
+}
+
+/// Add Σ w r rᵀ over rows of `WIDTH` entries, four at a time: the loops have fixed lengths, which compilers turn
+/// into vector instructions.
+fn add_to_block<const WIDTH: usize>(block: &mut [f64], entries: &[f64], weights: &[f64]) {
+    let (lines, _) = block.as_chunks_mut::<WIDTH>();
+    let (rows, _) = entries.as_chunks::<WIDTH>();
+    let (fours, left) = rows.as_chunks::<4>();
+    let (weights_of_fours, weights_left) = weights.as_chunks::<4>();
+    for ([p, q, r, s], [wp, wq, wr, ws]) in fours.iter().zip(weights_of_fours) {
+        for (a, line) in lines.iter_mut().enumerate() {
+            let [fp, fq, fr, fs] = [wp * p[a], wq * q[a], wr * r[a], ws * s[a]];
+            for (b, sum) in line.iter_mut().enumerate() {
+                *sum += fp * p[b] + fq * q[b] + fr * r[b] + fs * s[b];
+            }
+        }
+    }
+    for (row, weight) in left.iter().zip(weights_left) {
+        for (a, line) in lines.iter_mut().enumerate() {
+            let factor = weight * row[a];
+            for (sum, value) in line.iter_mut().zip(row) {
+                *sum += factor * value;
+            }
+        }
+    }
+}
+
+/// Do so with rows of any length.
+fn add_to_any_block(block: &mut [f64], width: usize, entries: &[f64], weights: &[f64]) {
+    for (row, weight) in entries.chunks_exact(width).zip(weights) {
+        for (line, own) in block.chunks_exact_mut(width).zip(row) {
+            for (sum, value) in line.iter_mut().zip(row) {
+                *sum += weight * own * value;
             }
         }
     }
@@ -192,6 +238,20 @@ impl Rows {
     pub(super) fn iter(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let rows = self.entries.chunks_exact(self.width.max(1));
         self.firsts.iter().copied().zip(rows)
+    }
+
+    /// The entries and weights of successive rows of the same vertices, with their first vertex.
+    fn by_vertices<'r>(
+        &'r self,
+        weights: &'r [f64],
+    ) -> impl Iterator<Item = (usize, &'r [f64], &'r [f64])> {
+        let mut begin = 0;
+        self.firsts.chunk_by(|a, b| a == b).map(move |firsts| {
+            let rows = begin..begin + firsts.len();
+            begin = rows.end;
+            let entries = &self.entries[rows.start * self.width..rows.end * self.width];
+            (firsts[0], entries, &weights[rows])
+        })
     }
 
     /// The rows with their first vertices, to be changed.

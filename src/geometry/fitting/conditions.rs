@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::banded_rows::Rows;
-use super::problem::{EndValue, Problem, Start};
+use super::problem::{EndValue, PlacedCurve, Problem, Start};
 use crate::geometry::basis::uniform_basis_derivative;
 use crate::geometry::end::End;
 
@@ -17,6 +17,9 @@ const BEND_MARGIN: f64 = 1e-7;
 /// The share of its margin from which on a condition is met.
 const MET: f64 = 0.5;
 
+/// By how much of the limit a point is to be nearer than that, so that rounding does not matter.
+const LIMIT_MARGIN: f64 = 1e-3;
+
 /// Conditions: values that must not be negative.
 pub(super) struct Conditions {
     pub(super) values: Vec<f64>,
@@ -24,13 +27,20 @@ pub(super) struct Conditions {
     pub(super) rows: Rows,
     /// By how much each value may be negative.
     allowed: Vec<f64>,
-    /// How many of them, the first ones, are on the slope.
+    /// How many of them, the first ones, are on the slope, and on slope and curvature together.
     pub(super) slopes: usize,
+    pub(super) shapes: usize,
 }
 
 impl Conditions {
-    /// Evaluate the conditions on the members that a start tells the signs of.
-    pub(super) fn new(problem: &Problem, start: &Start, with_gradients: bool) -> Self {
+    /// Evaluate the conditions on the members that a start tells the signs of and, with a limit, on the distances
+    /// of the points.
+    pub(super) fn new(
+        problem: &Problem,
+        start: &Start,
+        limit: Option<f64>,
+        with_gradients: bool,
+    ) -> Self {
         let splines = &problem.splines;
         let vertices = &start.curve.vertices;
         let mut conditions = Self {
@@ -38,6 +48,7 @@ impl Conditions {
             rows: Rows::new(splines.degree + 1),
             allowed: Vec::new(),
             slopes: problem.slope_places.len(),
+            shapes: 0,
         };
         let signs = start.slopes.signs(problem.slope_places.len());
         let segments = 0..splines.segments();
@@ -75,7 +86,41 @@ impl Conditions {
                 }
             }
         }
+        conditions.shapes = conditions.values.len();
+        if let Some(limit) = limit {
+            conditions.push_distances(problem, &start.curve, limit, with_gradients);
+        }
         conditions
+    }
+
+    /// Add for each point that counts what its distance leaves of the limit, as a share of that. Of a curve that is
+    /// its own mirror image the images of the points count too, so that steps are symmetric.
+    fn push_distances(
+        &mut self,
+        problem: &Problem,
+        curve: &PlacedCurve,
+        limit: f64,
+        with_gradients: bool,
+    ) {
+        let (splines, data) = (&problem.splines, &problem.data);
+        let points = data.points.iter().zip(&curve.places).zip(data.counts);
+        let points = points.filter(|(_, counts)| **counts);
+        for ((point, place), _) in points {
+            let image = data.mirror.map(|mirror| {
+                let place = splines.end() - place;
+                (mirror.image(*point), place)
+            });
+            for (point, place) in [Some((*point, *place)), image].into_iter().flatten() {
+                let off = splines.point(&curve.vertices, place) - point;
+                let (segment, basis) = splines.basis(place);
+                let across = -off.normalize_or_zero() / limit;
+                let weights = basis.iter().take(splines.degree + 1);
+                let gradient = weights.flat_map(|weight| (*weight * across).to_array());
+                let gradient = with_gradients.then(|| gradient.collect());
+                let value = 1.0 - off.length() / limit;
+                self.push(segment, 1.0, value, gradient.as_ref(), LIMIT_MARGIN);
+            }
+        }
     }
 
     fn push(

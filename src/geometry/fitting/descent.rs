@@ -66,28 +66,30 @@ pub(super) struct Descended {
     pub(super) press: Vec<f64>,
 }
 
-/// Step down from a start, at most so many steps, with weights of the points.
+/// Step down from a start, at most so many steps, to where no point is farther than the limit.
 ///
 /// Minimises ½ Σ w (offset across the curve)² / σ² with legs that grow evenly, σ the root mean square, under
-/// the signs of the start, whose cuts slide to where less presses. A solution's signs are its proof.
+/// the signs of the start, whose cuts slide to where less presses. A solution's signs are its proof. A limit that
+/// cannot be kept does not count in the end: points beyond it are as near as its price makes them.
 pub(super) fn descend(
     problem: &Problem,
     start: Start,
-    weights: &[f64],
+    limit: Option<f64>,
     steps: usize,
     progress: &Progress,
 ) -> Descended {
     let descent = Descent {
         problem,
-        weights,
-        sum: weights.iter().sum(),
+        limit,
+        sum: problem.data.weights.iter().sum(),
     };
     descent.run(start, steps, progress)
 }
 
 struct Descent<'a> {
     problem: &'a Problem<'a>,
-    weights: &'a [f64],
+    /// The largest distance of a point.
+    limit: Option<f64>,
     /// The sum of the weights.
     sum: f64,
 }
@@ -155,13 +157,17 @@ impl Descent<'_> {
             }
             press = taken.multipliers;
             now = taken.measured;
-            let slid = self.slide(&mut now.start, &press, now.conditions.slopes);
-            now.conditions = Conditions::new(self.problem, &now.start, true);
+            let shapes = &press[..now.conditions.shapes];
+            let slid = self.slide(&mut now.start, shapes, now.conditions.slopes);
+            now.conditions = self.conditions(&now.start, true);
             let settled = gain < SETTLED && !slid && now.conditions.hold();
             calm = if settled { calm + 1 } else { 0 };
             if calm >= CALM {
                 break;
             }
+        }
+        if self.limit.is_some() {
+            now.conditions = Conditions::new(self.problem, &now.start, None, true);
         }
         let holds = self.restore(&mut now);
         press.truncate(now.conditions.slopes);
@@ -181,15 +187,19 @@ impl Descent<'_> {
 
     fn measured(&self, start: Start, unit: f64, with_gradients: bool) -> Measured {
         Measured {
-            conditions: Conditions::new(self.problem, &start, with_gradients),
+            conditions: self.conditions(&start, with_gradients),
             value: self.value(&start.curve, unit),
             start,
         }
     }
 
+    fn conditions(&self, start: &Start, with_gradients: bool) -> Conditions {
+        Conditions::new(self.problem, start, self.limit, with_gradients)
+    }
+
     fn value(&self, curve: &PlacedCurve, unit: f64) -> f64 {
         let offsets = self.problem.offsets(curve);
-        let weighed = offsets.iter().zip(self.weights);
+        let weighed = offsets.iter().zip(self.problem.data.weights);
         let near: f64 = weighed
             .map(|(offset, weight)| weight * offset.length_squared())
             .sum();
@@ -262,7 +272,7 @@ impl Descent<'_> {
         let mut along = Rows::new(width);
         let (mut off_across, mut off_along) = (Vec::new(), Vec::new());
         let last = places.len().saturating_sub(1);
-        let points = problem.data.points.iter().zip(places).zip(self.weights);
+        let points = problem.data.points.iter().zip(places).zip(problem.data.weights);
         for (index, ((point, u), weight)) in points.enumerate() {
             let [at, first] = splines.jet(vertices, *u);
             let tangent = first.normalize_or(DVec2::X);
@@ -490,7 +500,7 @@ impl Descent<'_> {
                 break;
             };
             self.advance(&mut now.start.curve, &model.scales, &solution.step, 1.0);
-            now.conditions = Conditions::new(self.problem, &now.start, true);
+            now.conditions = Conditions::new(self.problem, &now.start, None, true);
         }
         let vertices = &now.start.curve.vertices;
         let equations = end_equations(self.problem, vertices, &self.scales(vertices));

@@ -49,10 +49,12 @@ const STALE: usize = 3;
 /// An error below this share of the size is rounding.
 const EXACT: f64 = 1e-9;
 
-/// A tolerance that is missed by less than this factor is tried for with weights that grow where points are far.
+/// A tolerance that is missed by less than this factor is made a condition, for so many steps.
 const CLOSE: f64 = 2.5;
-const WEIGHINGS: usize = 8;
-const WEIGHED_STEPS: usize = 10;
+const WITHIN_STEPS: usize = 30;
+
+/// Steps from a level that is fitted to more points, or with more vertices and fewer extrema.
+const REFINING_STEPS: usize = 10;
 
 /// From this level on, a tolerance that is missed by more than this factor with less than that gain is given up.
 const FAR_LEVEL: usize = 3;
@@ -150,8 +152,8 @@ impl<'a> Task<'a> {
         let least = self.least().min(most);
         let size = size(self.data.points);
         let (mut count, mut stale, mut level) = (least, 0, 0);
-        // How many levels there were when weights were tried last.
-        let mut weighed = None;
+        // How many levels there were when the tolerance was tried last.
+        let mut tried = None;
         loop {
             let found = self.level(count, level, &levels, fewer, count == most);
             level += 1;
@@ -176,10 +178,10 @@ impl<'a> Task<'a> {
             let ends = count >= most || (stale >= STALE && self.count.is_none());
             if let (Some(best), Some(tolerance)) = (levels.last(), self.tolerance) {
                 let is_close = best.largest > tolerance && best.largest < CLOSE * tolerance;
-                let is_new = weighed != Some(levels.len());
+                let is_new = tried != Some(levels.len());
                 if is_close && is_new && (ends || stale >= 1) {
-                    weighed = Some(levels.len());
-                    let nearer = self.weighed(best, tolerance);
+                    tried = Some(levels.len());
+                    let nearer = self.within(best, tolerance);
                     if nearer.largest <= tolerance {
                         levels.push(nearer);
                         break;
@@ -284,7 +286,7 @@ impl<'a> Task<'a> {
             largest,
             ..level
         };
-        known.or(Some(self.attempt(&problem, start, WEIGHED_STEPS)))
+        known.or(Some(self.attempt(&problem, start, REFINING_STEPS)))
     }
 
     fn next_count(&self, count: usize) -> usize {
@@ -406,18 +408,18 @@ impl<'a> Task<'a> {
     }
 
     fn attempt(&self, problem: &Problem, start: Start, steps: usize) -> Level {
-        self.weighed_attempt(problem, start, self.data.weights, steps)
+        self.attempt_within(problem, start, None, steps)
     }
 
     /// Step down from a start, and prove and measure what is found.
-    fn weighed_attempt(
+    fn attempt_within(
         &self,
         problem: &Problem,
         start: Start,
-        weights: &[f64],
+        limit: Option<f64>,
         steps: usize,
     ) -> Level {
-        let descended = descend(problem, start, weights, steps, self.progress);
+        let descended = descend(problem, start, limit, steps, self.progress);
         let [rms, largest] = problem.errors(&descended.start.curve);
         let mut level = Level {
             splines: problem.splines,
@@ -451,36 +453,15 @@ impl<'a> Task<'a> {
         })
     }
 
-    /// Make the largest distance smaller by weights that grow where distances are large (Lawson, 1961).
-    fn weighed(&self, level: &Level, tolerance: f64) -> Level {
+    /// Search for a curve near a level that keeps the tolerance.
+    fn within(&self, level: &Level, tolerance: f64) -> Level {
         let problem = self.problem(level.splines.count);
-        let mut weights = vec![1.0; self.data.points.len()];
-        let mut best = level.clone();
-        let mut now = level.clone();
-        for _ in 0..WEIGHINGS {
-            let offsets = problem.offsets(&now.start.curve);
-            let distances: Vec<f64> = offsets.iter().map(|offset| offset.length()).collect();
-            let mut sorted = distances.clone();
-            sorted.sort_by(f64::total_cmp);
-            let median = sorted[sorted.len() / 2].max(f64::MIN_POSITIVE);
-            for (weight, distance) in weights.iter_mut().zip(&distances) {
-                *weight *= (distance / median).clamp(0.2, 5.0).powf(0.8);
-            }
-            let mean = weights.iter().sum::<f64>() / weights.len() as f64;
-            for weight in &mut weights {
-                *weight = (*weight / mean).max(1e-2);
-            }
-            let both = weights.iter().zip(self.data.weights);
-            let both: Vec<f64> = both.map(|(weight, own)| weight * own).collect();
-            now = self.weighed_attempt(&problem, now.start, &both, WEIGHED_STEPS);
-            if now.holds && now.largest < best.largest {
-                best = now.clone();
-            }
-            if best.largest <= tolerance || self.progress.is_cancelled() {
-                break;
-            }
+        let start = level.start.clone();
+        let nearer = self.attempt_within(&problem, start, Some(tolerance), WITHIN_STEPS);
+        match nearer.holds && nearer.largest < level.largest {
+            true => nearer,
+            false => level.clone(),
         }
-        best
     }
 
     /// Starts at a fit with fewer extrema: the runs of conditions that press most get the other sign.
@@ -496,7 +477,7 @@ impl<'a> Task<'a> {
             let Some(start) = problem.resampled(&known, &less.start) else {
                 return Vec::new();
             };
-            fewer.attempt(problem, start, WEIGHED_STEPS)
+            fewer.attempt(problem, start, REFINING_STEPS)
         };
         let more = self.extrema.saturating_sub(fewer.extrema);
         let runs = released_runs(&base, more, self.data.mirror.is_some()).into_iter();

@@ -140,27 +140,30 @@ impl SlopeTables {
         let variables = 2 * local.len();
         let mut slope_gradients = vec![vec![0.0; variables]; slope_binomials.len()];
         let mut bend_gradients = vec![vec![0.0; variables]; bend_binomials.len()];
+        let mut slope = vec![0.0; slope_binomials.len()];
+        let mut bend = vec![0.0; bend_binomials.len()];
         let [first, second, third] = &self.derivatives;
         let by_vertex = first.iter().zip(second).zip(third).enumerate();
         for (vertex, ((first, second), third)) in by_vertex {
             for axis in 0..2 {
+                let variable = 2 * vertex + axis;
                 let [by_first, by_second, by_third] = &partial[axis];
-                let both = sum(&product(by_first, first), 1.0, &product(by_second, second));
-                let all = sum(&both, 1.0, &product(by_third, third));
-                let all = finish(&all, slope_binomials, units[0]);
-                for (row, value) in slope_gradients.iter_mut().zip(all) {
-                    row[2 * vertex + axis] = value;
+                slope.fill(0.0);
+                add_product(&mut slope, 1.0, by_first, first);
+                add_product(&mut slope, 1.0, by_second, second);
+                add_product(&mut slope, 1.0, by_third, third);
+                let scaled = slope.iter().zip(slope_binomials);
+                for (row, (value, binomial)) in slope_gradients.iter_mut().zip(scaled) {
+                    row[variable] = units[0] * value / binomial;
                 }
                 let [with_first, with_second] = bend_partial[axis];
                 let sign = [1.0, -1.0][axis];
-                let all = sum(
-                    &product(with_first, first),
-                    -1.0,
-                    &product(with_second, second),
-                );
-                let all = finish(&all, bend_binomials, sign * units[1]);
-                for (row, value) in bend_gradients.iter_mut().zip(all) {
-                    row[2 * vertex + axis] = value;
+                bend.fill(0.0);
+                add_product(&mut bend, sign, with_first, first);
+                add_product(&mut bend, -sign, with_second, second);
+                let scaled = bend.iter().zip(bend_binomials);
+                for (row, (value, binomial)) in bend_gradients.iter_mut().zip(scaled) {
+                    row[variable] = units[1] * value / binomial;
                 }
             }
         }
@@ -215,12 +218,18 @@ fn product(a: &[f64], b: &[f64]) -> Scaled {
         return Vec::new();
     }
     let mut all = vec![0.0; a.len() + b.len() - 1];
+    add_product(&mut all, 1.0, a, b);
+    all
+}
+
+/// Add `factor` a b.
+fn add_product(sums: &mut [f64], factor: f64, a: &[f64], b: &[f64]) {
     for (shift, a) in a.iter().enumerate() {
-        for (sum, b) in all[shift..].iter_mut().zip(b) {
+        let a = factor * a;
+        for (sum, b) in sums[shift..].iter_mut().zip(b) {
             *sum += a * b;
         }
     }
-    all
 }
 
 /// a + `factor` b.
