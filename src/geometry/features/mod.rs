@@ -51,6 +51,7 @@ mod sign_piece;
 mod sign_walk;
 mod square_free;
 mod trends;
+mod turning;
 mod values;
 mod variations;
 
@@ -62,3 +63,4 @@ pub(super) use power_velocity::PowerVelocity;
 pub(super) use ray_forecast::RayForecast;
 pub use segment_features::{LocalCusp, SegmentFeatures, SegmentProver};
 pub use sign_piece::{Sign, SignPiece};
+pub use turning::Turning;

@@ -272,7 +272,12 @@ impl Descent<'_> {
         let mut along = Rows::new(width);
         let (mut off_across, mut off_along) = (Vec::new(), Vec::new());
         let last = places.len().saturating_sub(1);
-        let points = problem.data.points.iter().zip(places).zip(problem.data.weights);
+        let points = problem
+            .data
+            .points
+            .iter()
+            .zip(places)
+            .zip(problem.data.weights);
         for (index, ((point, u), weight)) in points.enumerate() {
             let [at, first] = splines.jet(vertices, *u);
             let tangent = first.normalize_or(DVec2::X);

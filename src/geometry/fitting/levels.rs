@@ -1,5 +1,7 @@
 //! Fits with a wished number of extrema, from few vertices to many.
 
+use std::f64::consts::PI;
+
 use glam::{DVec2, DVec3};
 
 use super::descent::descend;
@@ -8,7 +10,7 @@ use super::problem::{Data, PlacedCurve, Problem, Start};
 use super::sign_runs::SignRuns;
 use super::slope_coefficients::SlopeTables;
 use super::splines::Splines;
-use crate::geometry::features::{Feature, Features};
+use crate::geometry::features::{Feature, Features, Turning};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
@@ -72,6 +74,13 @@ const LOOP: f64 = 2.0;
 
 /// The chords by which the arc between two points is measured.
 const ARC_PARTS: usize = 8;
+
+/// A curve that turns so much more or less than the polyline of its points, in radians, winds: half a turn too much
+/// for a curve near them, and below the whole turn of the smallest loop.
+const WINDING: f64 = 1.5 * PI;
+
+/// Where the polyline turns by more than this at a point, in radians, its turns may be noise and are not added up.
+const CLEAN: f64 = 1.0;
 
 /// Multipliers below this share of the largest do not count as pressing where a run may be released, and runs of
 /// them with a gap of less than so many members are one.
@@ -433,11 +442,70 @@ impl<'a> Task<'a> {
         level
     }
 
-    /// Whether the curve has just the features asked for.
+    /// Whether the curve turns as its points do, so that no loop hides between them.
+    fn winds(&self, polygon: &FloatPolygon, level: &Level) -> bool {
+        let turning = Turning::new(polygon);
+        let splines = &level.splines;
+        let curve = &level.start.curve;
+        let heavy = self
+            .data
+            .points
+            .iter()
+            .zip(&curve.places)
+            .zip(self.data.counts);
+        let heavy = heavy.filter(|(_, counts)| **counts);
+        let heavy: Vec<(DVec2, f64)> = heavy.map(|((point, place), _)| (*point, *place)).collect();
+        // How far the curve is turned against each chord.
+        let (mut turned, mut before) = (Vec::new(), None);
+        let (mut sharp, mut angle, mut rounds) = (Vec::new(), 0.0, 0.0);
+        for pair in heavy.windows(2) {
+            let [(from, begin), (to, mut end)] = [pair[0], pair[1]];
+            let chord = to - from;
+            if chord == DVec2::ZERO {
+                continue;
+            }
+            let turn = before.map_or(chord.to_angle(), |before: DVec2| before.angle_to(chord));
+            angle += turn;
+            sharp.push(before.is_some() && turn.abs() > CLEAN);
+            before = Some(chord);
+            let wraps = self.periodic && end + 0.5 * splines.end() < begin;
+            if wraps {
+                end += splines.end();
+            }
+            let middle = 0.5 * (begin + end);
+            let (over, middle) = match middle >= splines.end() && self.periodic {
+                true => (turning.total(), middle - splines.end()),
+                false => (0.0, middle),
+            };
+            let [_, tangent] = splines.jet(&curve.vertices, middle);
+            turned.push(rounds + over + turning.angle(middle, tangent) - angle);
+            if wraps {
+                rounds += turning.total();
+            }
+        }
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut last = None;
+        turned.into_iter().zip(sharp).any(|(turned, is_sharp)| {
+            if is_sharp {
+                (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
+            }
+            (low, high) = (low.min(turned), high.max(turned));
+            let jumps = last.is_some_and(|last: f64| (turned - last).abs() > WINDING);
+            last = Some(turned);
+            jumps || high - low > WINDING
+        })
+    }
+
+    /// Whether the curve has just the features asked for, and turns as its points do.
     fn is_proved(&self, level: &Level) -> bool {
-        let features = level.polygon();
-        let features = features.map(|it| Features::proved(&it, |_| !self.progress.is_cancelled()));
-        features.flatten().is_some_and(|features| {
+        let Some(polygon) = level.polygon() else {
+            return false;
+        };
+        if self.winds(&polygon, level) {
+            return false;
+        }
+        let features = Features::proved(&polygon, |_| !self.progress.is_cancelled());
+        features.is_some_and(|features| {
             let inflections = features.count(Feature::Inflection);
             let extrema = features.curvature_extrema.iter();
             let mut places: Vec<f64> = extrema.map(|it| 0.5 * (it.u[0] + it.u[1])).collect();
