@@ -13,6 +13,7 @@ mod coefficient;
 mod continuity;
 mod control_polygon;
 mod conversion;
+mod crossing;
 mod curvature_levels;
 mod cut;
 mod differentiable;

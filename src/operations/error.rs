@@ -47,6 +47,18 @@ pub enum OperationError {
     /// The points have no fit.
     #[error(transparent)]
     Fit(#[from] FitError),
+    /// One of several pieces of points has no fit.
+    #[error("piece {piece}, points {first} to {last}: {error}")]
+    Piece {
+        /// The number of the piece, from 1.
+        piece: usize,
+        /// Its first point, from 0.
+        first: usize,
+        /// Its last point.
+        last: usize,
+        /// Why it has none.
+        error: FitError,
+    },
     /// A reference has no such part.
     #[error(transparent)]
     Reference(#[from] ReferenceError),

@@ -223,15 +223,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         ..asked(points.len(), values)?
     };
     let progress = limited(progress, values);
-    let corners = match asked.periodic {
-        true => Vec::new(),
-        false => corners(&points),
-    };
-    let pieces = pieces(points.len(), &corners, values);
+    let (pieces, corners) = pieces(&points, values);
     let fitted = pieces.iter().enumerate().map(|(index, piece)| {
         let share = |index: usize| index as f64 / pieces.len() as f64;
         let own = progress.part(share(index), share(index + 1));
-        piece.fit(&points, &asked, &own.of_curve(index))
+        let fitted = piece.fit(&points, &asked, &own.of_curve(index));
+        fitted.map_err(|error| piece.told(error, index, pieces.len()))
     });
     let (requests, fitted): (Vec<PlaneFit>, Vec<Fitted>) =
         fitted.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
@@ -259,16 +256,17 @@ pub fn left_out(input: &Operands, values: &Values) -> Result<Vec<usize>, Operati
     let in_space = is_in_space(input);
     let pieces = pieces_of(input, values).into_iter();
     let left_out = pieces.flat_map(|piece| {
-        let own = &points[piece.first..=piece.last];
+        let own = piece.of(points);
         let given = asked.outliers.as_ref().map(|numbers| piece.own(numbers));
-        let weights = input.weights().map(|weights| piece.own_weights(weights));
-        let closes = asked.periodic && !in_space;
-        let counted = CountedPoints::new(own, closes, given.as_deref(), weights.as_deref());
+        let weights = input.weights().map(|weights| piece.of(weights));
+        let closes = asked.periodic && piece.is_outer == [true; 2] && !in_space;
+        let counted = CountedPoints::new(&own, closes, given.as_deref(), weights.as_deref());
         let left_out = counted.outliers.into_iter();
-        left_out.map(move |number| number + piece.first)
+        left_out.map(move |number| piece.numbers[number])
     });
     let mut left_out: Vec<usize> = left_out.collect();
     // A corner belongs to two pieces.
+    left_out.sort_unstable();
     left_out.dedup();
     Ok(left_out)
 }
@@ -314,31 +312,35 @@ fn is_in_space(input: &Operands) -> bool {
 
 /// The pieces of the points, one for each curve.
 fn pieces_of(input: &Operands, values: &Values) -> Vec<Piece> {
-    let points = input.points();
-    let is_whole = is_in_space(input) || values.switch(&PERIODIC) || !values.switch(&SPLIT);
-    let corners = match is_whole {
-        true => Vec::new(),
-        false => {
-            let flat: Vec<DVec2> = points.iter().map(|point| point.truncate()).collect();
-            corners(&flat)
-        }
-    };
-    pieces(points.len(), &corners, values)
+    let flat = input.points().iter().map(|point| point.truncate());
+    let flat: Vec<DVec2> = flat.collect();
+    match is_in_space(input) {
+        true => vec![Piece::whole(flat.len())],
+        false => pieces(&flat, values).0,
+    }
 }
 
-/// The pieces of so many points, which are split at corners if the values say so.
-fn pieces(points: usize, corners: &[usize], values: &Values) -> Vec<Piece> {
-    let last = points.saturating_sub(1);
-    let bounds = match values.switch(&SPLIT) {
-        true => [&[0], corners, &[last]].concat(),
-        false => vec![0, last],
+/// The pieces of the points, which are split at corners if the values say so, and the corners.
+fn pieces(points: &[DVec2], values: &Values) -> (Vec<Piece>, Vec<usize>) {
+    let count = points.len();
+    let periodic = values.switch(&PERIODIC);
+    // The last point of a ring may repeat the first.
+    let repeats = periodic && count > 1 && points.first() == points.last();
+    let ring = count - usize::from(repeats);
+    let corners = corners(&points[..ring], periodic);
+    if !values.switch(&SPLIT) || corners.is_empty() {
+        return (vec![Piece::whole(count)], corners);
+    }
+    let last = count.saturating_sub(1);
+    let bounds = match periodic {
+        true => [&corners[..], &[corners[0] + ring]].concat(),
+        false => [&[0], &corners[..], &[last]].concat(),
     };
     let pieces = bounds.windows(2).map(|bounds| Piece {
-        first: bounds[0],
-        last: bounds[1],
-        is_outer: [bounds[0] == 0, bounds[1] == last],
+        numbers: (bounds[0]..=bounds[1]).map(|it| it % ring).collect(),
+        is_outer: [!periodic && bounds[0] == 0, !periodic && bounds[1] == last],
     });
-    pieces.collect()
+    (pieces.collect(), corners)
 }
 
 /// Require numbers of features, if there are any asked for.
@@ -352,55 +354,82 @@ fn features(extrema: Option<usize>, inflections: Option<usize>) -> Option<Requir
 
 /// The points of one curve.
 struct Piece {
-    first: usize,
-    last: usize,
-    /// Whether it begins, and ends, where all points do.
+    /// Their numbers, along the curve.
+    numbers: Vec<usize>,
+    /// Whether it begins, and ends, where all points do, and not at a corner.
     is_outer: [bool; 2],
 }
 
 impl Piece {
+    /// All of so many points.
+    fn whole(points: usize) -> Self {
+        Self {
+            numbers: (0..points).collect(),
+            is_outer: [true; 2],
+        }
+    }
+
     /// Fit one curve, whose inner ends are just at the corners. Points keep their numbers.
     fn fit(
         &self,
         points: &[DVec2],
         asked: &PlaneFit,
         progress: &Progress,
-    ) -> Result<(PlaneFit, Fitted), OperationError> {
+    ) -> Result<(PlaneFit, Fitted), FitError> {
         let ends = [0, 1].map(|end| !self.is_outer[end] || asked.exact_ends[end]);
         let outer = self.is_outer;
+        let is_whole = outer == [true; 2];
+        let own = self.of(points);
+        // A short piece has a lower degree, not the whole curve.
+        let degree = match is_whole {
+            true => asked.degree,
+            false => asked.degree.min(own.len().saturating_sub(1)).max(1),
+        };
         let asked = PlaneFit {
+            degree,
+            periodic: asked.periodic && is_whole,
             exact_ends: ends,
             directions: [0, 1].map(|end| asked.directions[end].filter(|_| outer[end])),
             curvatures: [0, 1].map(|end| asked.curvatures[end].filter(|_| outer[end])),
             outliers: asked.outliers.as_ref().map(|numbers| self.own(numbers)),
-            weights: asked
-                .weights
-                .as_ref()
-                .map(|weights| self.own_weights(weights)),
+            weights: asked.weights.as_ref().map(|weights| self.of(weights)),
             ..asked.clone()
         };
-        let found = fit_plane(&points[self.first..=self.last], &asked, progress);
-        let mut found = found.map_err(told)?;
+        let mut found = fit_plane(&own, &asked, progress)?;
         for (outlier, _) in &mut found.outliers {
-            *outlier += self.first;
+            *outlier = self.numbers[*outlier];
         }
         for repeated in &mut found.repeated {
-            *repeated += self.first;
+            *repeated = self.numbers[*repeated];
         }
         Ok((asked, found))
     }
 
-    /// Those of some points, counted from the first of the piece.
-    fn own(&self, numbers: &[usize]) -> Vec<usize> {
-        let inside = numbers
-            .iter()
-            .filter(|it| (self.first..=self.last).contains(it));
-        inside.map(|number| number - self.first).collect()
+    /// Tell a cancellation from other errors, and which of several pieces an error is about.
+    fn told(&self, error: FitError, index: usize, pieces: usize) -> OperationError {
+        match (error, &self.numbers[..]) {
+            (FitError::Cancelled, _) => OperationError::Cancelled,
+            (error, [first, .., last]) if pieces > 1 => OperationError::Piece {
+                piece: index + 1,
+                first: *first,
+                last: *last,
+                error,
+            },
+            (error, _) => error.into(),
+        }
     }
 
-    fn own_weights(&self, weights: &[f64]) -> Vec<f64> {
-        let own = weights.iter().skip(self.first);
-        own.take(self.last + 1 - self.first).copied().collect()
+    /// What belongs to its points, of all.
+    fn of<T: Copy>(&self, all: &[T]) -> Vec<T> {
+        let own = self.numbers.iter();
+        own.filter_map(|number| all.get(*number).copied()).collect()
+    }
+
+    /// Those of some points, by their places along the piece.
+    fn own(&self, numbers: &[usize]) -> Vec<usize> {
+        let places = self.numbers.iter().enumerate();
+        let inside = places.filter(|(_, number)| numbers.contains(number));
+        inside.map(|(place, _)| place).collect()
     }
 
     /// What the curve must hold: its features, its ends and the tolerance.
@@ -408,7 +437,7 @@ impl Piece {
         let features = features(asked.extrema.number(), asked.inflections);
         let polygon = &found.polygon;
         let counts = |index: &usize| found.outliers.iter().all(|(outlier, _)| outlier != index);
-        let mut counting = (self.first..=self.last).filter(counts);
+        let mut counting = self.numbers.iter().copied().filter(counts);
         let outer = [counting.next(), counting.next_back()];
         let place = |(index, end): (usize, End)| {
             let point = outer[index].filter(|_| asked.exact_ends[index]);
@@ -655,6 +684,12 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
                 "Nothing found keeps {tolerance}, which the noise lets expect: one point is {off} off"
             ));
         }
+    }
+    if let Some(at) = found.crossing {
+        let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));
+        remarks.push(format!(
+            "The curve crosses itself at {x}, {y}, its points do not: hold exact ends, or ask for more extrema"
+        ));
     }
     if asked.mirror.is_some() && found.deviation > LOPSIDED * found.tolerance {
         let off = significant(found.deviation, 3);

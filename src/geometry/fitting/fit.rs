@@ -13,6 +13,7 @@ use super::neighbours::{self, with_middles};
 use super::problem::{Data, EndCondition, EndValue};
 use super::slope_coefficients::SlopeTables;
 use crate::geometry::control_polygon::check_size;
+use crate::geometry::crossing::crossing;
 use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::{Feature, Features};
@@ -58,6 +59,9 @@ const STRIDES_FROM: usize = 8;
 /// So many further numbers are tried for so long beside the fewest, so that there is something to choose from.
 const MORE: usize = 2;
 const MORE_TIME: Duration = Duration::from_millis(500);
+
+/// Samples of a segment by which crossings are found.
+const SAMPLES: usize = 32;
 
 /// Levels of fewer extrema that begin those of more.
 const RELEASED: usize = 3;
@@ -162,6 +166,8 @@ pub struct Fitted {
     pub repeated: Vec<usize>,
     /// Whether the time was up before the search had ended.
     pub stopped: bool,
+    /// A point where the curve crosses itself, if the polyline of the points does not.
+    pub crossing: Option<DVec2>,
 }
 
 /// Fit a curve with a wished number of curvature extrema, or the fewest, to points of the plane that follow each
@@ -199,6 +205,14 @@ pub fn fit_plane(
         least_extrema,
         ..fitted
     })
+}
+
+/// A point where a curve crosses itself, at samples, if the polyline of its points does not.
+fn crossing_of(polygon: &FloatPolygon, points: &[DVec2]) -> Option<DVec2> {
+    let samples = polygon.segments() * SAMPLES;
+    let places = (0..=samples).map(|sample| sample as f64 / SAMPLES as f64);
+    let curve: Vec<DVec2> = places.map(|u| polygon.point(u).truncate()).collect();
+    crossing(&curve).filter(|_| crossing(points).is_none())
 }
 
 /// Points as they are fitted: those that count, about the origin, about 1 large.
@@ -875,6 +889,7 @@ impl Fit<'_> {
             least_extrema: None,
             repeated: prepared.repeated.clone(),
             stopped: self.progress.is_late(),
+            crossing: crossing_of(&polygon, points),
             polygon,
         })
     }

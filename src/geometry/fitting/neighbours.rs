@@ -24,6 +24,9 @@ const BY_MEDIAN: f64 = 1.4826;
 /// How much larger a left out distance is than the noise of a point, on average.
 const LEFT_OUT: f64 = 1.25;
 
+/// Points of a ring that are looked at before its first and behind its last one.
+const RING_CONTEXT: usize = 4;
+
 /// The least turn of a corner, in radians, and how much sharper it is than its neighbours.
 const CORNER: f64 = 0.5;
 const SHARPER: f64 = 4.0;
@@ -74,9 +77,20 @@ pub(super) fn outliers(points: &[DVec3]) -> Vec<usize> {
     found
 }
 
-/// List the inner points where the direction turns sharply, and much more than beside them. Where they are very many
-/// they are noise, and there is none.
-pub fn corners(points: &[DVec2]) -> Vec<usize> {
+/// List the points where the direction turns sharply, and much more than beside them: inner ones, or with `periodic`
+/// all of a ring, which does not repeat its first point. Where they are very many they are noise, and there is none.
+pub fn corners(points: &[DVec2], periodic: bool) -> Vec<usize> {
+    if !periodic {
+        return inner_corners(points);
+    }
+    let around = RING_CONTEXT.min(points.len());
+    let (before, behind) = (&points[points.len() - around..], &points[..around]);
+    let corners = inner_corners(&[before, points, behind].concat()).into_iter();
+    let own = corners.filter_map(|corner| corner.checked_sub(around));
+    own.filter(|corner| *corner < points.len()).collect()
+}
+
+fn inner_corners(points: &[DVec2]) -> Vec<usize> {
     let chords: Vec<DVec2> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let directions = unwrapped(&chords);
     let turns: Vec<f64> = directions
@@ -202,6 +216,8 @@ impl Cubic {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
 
     fn arc(count: usize) -> Vec<DVec3> {
@@ -224,12 +240,21 @@ mod tests {
 
     #[test]
     fn corners_are_sharp_points_and_not_tight_bends() {
-        assert!(corners(&flat(&arc(9))).is_empty());
+        assert!(corners(&flat(&arc(9)), false).is_empty());
         let mut points = arc(40);
         let legs = (1..20).map(|it| points[39] + 0.05 * it as f64 * DVec3::X);
         let legs: Vec<DVec3> = legs.collect();
         points.extend(legs);
-        assert_eq!(corners(&flat(&points)), [39]);
+        assert_eq!(corners(&flat(&points), false), [39]);
+        // A ring that begins at its corner, or between its points, has the same one.
+        let drop = (1..40).map(|it| {
+            let angle = TAU * it as f64 / 40.0;
+            DVec2::new(angle.sin() * (0.5 * angle).sin(), -(0.5 * angle).sin())
+        });
+        let mut drop: Vec<DVec2> = std::iter::once(DVec2::ZERO).chain(drop).collect();
+        assert_eq!(corners(&drop, true), [0]);
+        drop.rotate_left(7);
+        assert_eq!(corners(&drop, true), [33]);
     }
 
     #[test]

@@ -1,0 +1,55 @@
+//! Where polylines cross themselves.
+
+use glam::DVec2;
+
+/// Find a point where a polyline crosses itself: the first one found from the side of the least x. Legs that only
+/// touch do not cross. `None` if it does not cross itself.
+pub fn crossing(points: &[DVec2]) -> Option<DVec2> {
+    let legs = points.windows(2);
+    let mut legs: Vec<[DVec2; 2]> = legs.map(|leg| [leg[0], leg[1]]).collect();
+    legs.sort_by(|a, b| low(a).total_cmp(&low(b)));
+    let mut near: Vec<[DVec2; 2]> = Vec::new();
+    for leg in legs {
+        near.retain(|other| other[0].x.max(other[1].x) >= low(&leg));
+        if let Some(crossing) = near.iter().find_map(|other| crossing_of(&leg, other)) {
+            return Some(crossing);
+        }
+        near.push(leg);
+    }
+    None
+}
+
+fn low(leg: &[DVec2; 2]) -> f64 {
+    leg[0].x.min(leg[1].x)
+}
+
+/// Where two legs cross, both inside.
+fn crossing_of([a, b]: &[DVec2; 2], [c, d]: &[DVec2; 2]) -> Option<DVec2> {
+    let (leg, other) = (*b - *a, *d - *c);
+    let [from_c, from_d] = [leg.perp_dot(*c - *a), leg.perp_dot(*d - *a)];
+    let [from_a, from_b] = [other.perp_dot(*a - *c), other.perp_dot(*b - *c)];
+    let crosses = from_c * from_d < 0.0 && from_a * from_b < 0.0;
+    crosses.then(|| a.lerp(*b, from_a / (from_a - from_b)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(points: &[(f64, f64)]) -> Vec<DVec2> {
+        points.iter().map(|it| DVec2::from(*it)).collect()
+    }
+
+    #[test]
+    fn legs_cross_where_they_pass_each_other_and_not_where_they_touch() {
+        let bow = points(&[(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)]);
+        assert_eq!(crossing(&bow), Some(DVec2::ONE));
+        let ring = points(&[(0.0, 0.0), (2.0, 0.0), (1.0, 2.0), (0.0, 0.0)]);
+        assert_eq!(crossing(&ring), None);
+        let back = points(&[(0.0, 0.0), (2.0, 0.0), (1.0, 0.0)]);
+        assert_eq!(crossing(&back), None);
+        let spiral =
+            (0..4000).map(|it| 0.001 * f64::from(it) * DVec2::from_angle(0.1 * f64::from(it)));
+        assert_eq!(crossing(&spiral.collect::<Vec<DVec2>>()), None);
+    }
+}
