@@ -1,11 +1,13 @@
 //! Fits of airfoils that others have measured, checked by an evaluation of their own.
 
+use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use batten::geometry::basis::uniform_basis_derivative;
 use batten::geometry::fairing::harmonising::{Harmony, Held, harmonise};
+use batten::geometry::features::Turning;
 use batten::geometry::fitting::{Extrema, Fitted, PlaneFit, fit_plane};
 use batten::geometry::{FloatPolygon, Progress};
 use glam::DVec2;
@@ -16,6 +18,9 @@ const DEGREE: usize = 5;
 
 /// The samples of a segment by which a curve is measured.
 const SAMPLES: usize = 200;
+
+/// A section turns by half a turn and a little; a loop in its nose makes that more than this.
+const ONCE_ROUND: f64 = 1.5 * PI;
 
 /// What a fit is, by the test's own evaluation.
 struct Seen {
@@ -166,6 +171,8 @@ fn fit(name: &str, points: &[DVec2], asked: &PlaneFit) -> (Fitted, Seen) {
     assert!(seen.largest <= found.largest / chord + 1e-6, "{name}");
     assert_eq!(seen.extrema, found.extrema, "{name}");
     assert!(seen.length < 1.02, "{name}: {} times as long", seen.length);
+    let turn = Turning::new(&found.polygon).total().abs();
+    assert!(turn < ONCE_ROUND, "{name}: turns by {turn}");
     assert!(seen.astray < 1.0, "{name}: {} astray", seen.astray);
     assert!(
         seen.vertices <= (points.len() / 2).max(DEGREE + 1),

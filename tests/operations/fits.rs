@@ -1,5 +1,7 @@
 //! Fits of points: what is reported of them.
 
+use std::f64::consts::PI;
+
 use batten::document::Document;
 use batten::geometry::Progress;
 use batten::operations::fit::{curves, left_out, with_point_switched};
@@ -244,4 +246,50 @@ fn the_points_that_are_left_out_are_known_before_the_fit() {
             assert!(!without.contains(&point), "{texts:?} {point}");
         }
     }
+}
+
+/// The outline of a D: half a circle of radius 10 and its diameter, which begins in the middle of the half circle.
+fn outline(last_repeats: bool) -> Vec<DVec3> {
+    let arc = (0..=40).map(|it| {
+        let angle = PI * (f64::from(it) / 40.0 - 0.5);
+        DVec3::new(10.0 * angle.cos(), 10.0 * angle.sin(), 0.0)
+    });
+    let line = (1..20).map(|it| DVec3::new(0.0, 10.0 - f64::from(it), 0.0));
+    let mut points: Vec<DVec3> = arc.chain(line).collect();
+    points.rotate_left(20);
+    points.extend(last_repeats.then(|| points[0]));
+    points
+}
+
+#[test]
+fn closed_points_are_split_at_their_corners() {
+    for last_repeats in [false, true] {
+        let points = outline(last_repeats);
+        let values = vec![
+            ("periodic", Value::Switch(true)),
+            ("split-corners", Value::Switch(true)),
+        ];
+        let found = report_of(points, values).expect("two fits");
+        assert!(found.reached, "{}", found.text());
+        let json = serde_json::to_value(&found).expect("JSON");
+        let curves = json["features_after"].as_array().expect("the curves").len();
+        assert_eq!(curves, 2, "{json}");
+    }
+    let found = report_of(outline(false), vec![("periodic", Value::Switch(true))]).expect("a fit");
+    assert!(
+        found.text().contains("corners at 20, 40"),
+        "{}",
+        found.text()
+    );
+}
+
+#[test]
+fn a_piece_that_has_no_fit_is_named() {
+    let values = vec![
+        ("periodic", Value::Switch(true)),
+        ("split-corners", Value::Switch(true)),
+        ("extrema", Value::List(vec![18.0])),
+    ];
+    let error = report_of(outline(false), values).expect_err("too few points");
+    assert!(error.contains("piece 1, points 20 to 40: "), "{error}");
 }

@@ -1,5 +1,7 @@
 //! Short rows over the vertices, and the symmetric band matrix that they make.
 
+use std::ops::Range;
+
 use super::mirror::Mirror;
 
 /// Where the unknowns of the vertices stand.
@@ -16,12 +18,17 @@ pub(super) struct Layout {
     pub(super) band: usize,
 }
 
+/// The numbers that are added or multiplied at a time.
+const LANES: usize = 4;
+
 /// Rows of a matrix whose entries belong to successive vertices: x, y, x, y, …
 #[derive(Clone)]
 pub(super) struct Rows {
     width: usize,
+    /// From one row's entries to the next: the width, filled up with zeros to whole [`LANES`].
+    stride: usize,
     pub(super) firsts: Vec<usize>,
-    pub(super) entries: Vec<f64>,
+    entries: Vec<f64>,
 }
 
 /// The lower part of a symmetric band matrix, column by column from the diagonal.
@@ -116,54 +123,51 @@ impl Layout {
 
     /// Multiply rows and a vector.
     pub(super) fn times(&self, rows: &Rows, vector: &[f64]) -> Vec<f64> {
-        let products = rows.iter().map(|(first, row)| match self.is_folded {
-            false => {
-                let part = &vector[2 * first..];
-                row.iter().zip(part).map(|(factor, it)| factor * it).sum()
+        let mut products = Vec::with_capacity(rows.firsts.len());
+        let mut local = vec![0.0; rows.stride];
+        for (first, own) in rows.by_vertices() {
+            for (value, column) in local.iter_mut().zip(self.columns(first)).take(rows.width) {
+                *value = vector[*column];
             }
-            true => {
-                let columns = self.columns(first).iter();
-                row.iter()
-                    .zip(columns)
-                    .map(|(factor, it)| factor * vector[*it])
-                    .sum()
-            }
-        });
-        products.collect()
+            let entries = rows.entries_of(own).chunks_exact(rows.stride);
+            products.extend(entries.map(|row| dot(row, &local)));
+        }
+        products
     }
 
     /// Add the transposed rows times a vector.
     pub(super) fn add_transposed(&self, rows: &Rows, vector: &[f64], sum: &mut [f64]) {
-        for ((first, row), factor) in rows.iter().zip(vector).filter(|(_, it)| **it != 0.0) {
-            if self.is_folded {
-                for (value, column) in row.iter().zip(self.columns(first)) {
-                    sum[*column] += factor * value;
-                }
-            } else {
-                for (sum, value) in sum[2 * first..].iter_mut().zip(row) {
-                    *sum += factor * value;
-                }
+        let mut local = vec![0.0; rows.stride];
+        for (first, own) in rows.by_vertices() {
+            local.fill(0.0);
+            let factors = &vector[own.clone()];
+            let entries = rows.entries_of(own).chunks_exact(rows.stride);
+            for (row, factor) in entries.zip(factors) {
+                add(&mut local, *factor, row);
+            }
+            for (value, column) in local.iter().zip(self.columns(first)).take(rows.width) {
+                sum[*column] += value;
             }
         }
     }
 
     /// Add Σ wᵣ cᵣ cᵣᵀ over the rows.
     pub(super) fn add_squares(&self, rows: &Rows, weights: &[f64], sum: &mut BandMatrix) {
-        let band = sum.band;
-        let mut block = vec![0.0; rows.width * rows.width];
+        let (band, stride) = (sum.band, rows.stride);
+        let mut block = vec![0.0; stride * rows.width];
         // Rows of the same vertices are summed up before they go into the band.
-        for (first, entries, weights) in rows.by_vertices(weights) {
+        for (first, own) in rows.by_vertices() {
             block.fill(0.0);
-            match rows.width {
-                8 => add_to_block::<8>(&mut block, entries, weights),
-                12 => add_to_block::<12>(&mut block, entries, weights),
-                16 => add_to_block::<16>(&mut block, entries, weights),
-                20 => add_to_block::<20>(&mut block, entries, weights),
-                width => add_to_any_block(&mut block, width, entries, weights),
+            let weights = &weights[own.clone()];
+            let entries = rows.entries_of(own).chunks_exact(stride);
+            for (row, weight) in entries.zip(weights).filter(|(_, it)| **it != 0.0) {
+                for (line, own) in block.chunks_exact_mut(stride).zip(row) {
+                    add(line, weight * own, row);
+                }
             }
-            let lines = block.chunks_exact(rows.width.max(1)).enumerate();
+            let columns = &self.columns(first)[..rows.width];
+            let lines = block.chunks_exact(stride).enumerate();
             if self.is_folded {
-                let columns = self.columns(first);
                 for ((_, line), below) in lines.zip(columns) {
                     for (value, column) in line.iter().zip(columns).filter(|(_, it)| *it <= below) {
                         sum.columns[column * band + below - column] += value;
@@ -172,7 +176,7 @@ impl Layout {
             } else {
                 let columns = sum.columns[2 * first * band..].chunks_exact_mut(band);
                 for ((a, line), column) in lines.zip(columns) {
-                    for (sum, value) in column.iter_mut().zip(&line[a..]) {
+                    for (sum, value) in column.iter_mut().zip(&line[a..rows.width]) {
                         *sum += value;
                     }
                 }
@@ -181,47 +185,37 @@ impl Layout {
     }
 }
 
-/// Add Σ w r rᵀ over rows of `WIDTH` entries, four at a time: the loops have fixed lengths, which compilers turn
-/// into vector instructions.
-fn add_to_block<const WIDTH: usize>(block: &mut [f64], entries: &[f64], weights: &[f64]) {
-    let (lines, _) = block.as_chunks_mut::<WIDTH>();
-    let (rows, _) = entries.as_chunks::<WIDTH>();
-    let (fours, left) = rows.as_chunks::<4>();
-    let (weights_of_fours, weights_left) = weights.as_chunks::<4>();
-    for ([p, q, r, s], [wp, wq, wr, ws]) in fours.iter().zip(weights_of_fours) {
-        for (a, line) in lines.iter_mut().enumerate() {
-            let [fp, fq, fr, fs] = [wp * p[a], wq * q[a], wr * r[a], ws * s[a]];
-            for (b, sum) in line.iter_mut().enumerate() {
-                *sum += fp * p[b] + fq * q[b] + fr * r[b] + fs * s[b];
-            }
-        }
-    }
-    for (row, weight) in left.iter().zip(weights_left) {
-        for (a, line) in lines.iter_mut().enumerate() {
-            let factor = weight * row[a];
-            for (sum, value) in line.iter_mut().zip(row) {
-                *sum += factor * value;
-            }
+/// Add `factor` times numbers, four at a time: such loops become vector instructions.
+fn add(sums: &mut [f64], factor: f64, values: &[f64]) {
+    let (sums, _) = sums.as_chunks_mut::<LANES>();
+    let (values, _) = values.as_chunks::<LANES>();
+    for (sums, values) in sums.iter_mut().zip(values) {
+        for (sum, value) in sums.iter_mut().zip(values) {
+            *sum += factor * value;
         }
     }
 }
 
-/// Do so with rows of any length.
-fn add_to_any_block(block: &mut [f64], width: usize, entries: &[f64], weights: &[f64]) {
-    for (row, weight) in entries.chunks_exact(width).zip(weights) {
-        for (line, own) in block.chunks_exact_mut(width).zip(row) {
-            for (sum, value) in line.iter_mut().zip(row) {
-                *sum += weight * own * value;
-            }
+/// The sum of products, four at a time.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let (a, _) = a.as_chunks::<LANES>();
+    let (b, _) = b.as_chunks::<LANES>();
+    for (a, b) in a.iter().zip(b) {
+        for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *sum += a * b;
         }
     }
+    sums.iter().sum()
 }
 
 impl Rows {
     /// Begin with no rows of `vertices` vertices each.
     pub(super) fn new(vertices: usize) -> Self {
+        let width = 2 * vertices;
         Self {
-            width: 2 * vertices,
+            width,
+            stride: width.next_multiple_of(LANES),
             firsts: Vec::new(),
             entries: Vec::new(),
         }
@@ -231,33 +225,30 @@ impl Rows {
     pub(super) fn push(&mut self, first: usize, entries: impl IntoIterator<Item = f64>) {
         self.firsts.push(first);
         self.entries.extend(entries.into_iter().take(self.width));
-        self.entries.resize(self.firsts.len() * self.width, 0.0);
-    }
-
-    /// The rows with their first vertices.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (usize, &[f64])> {
-        let rows = self.entries.chunks_exact(self.width.max(1));
-        self.firsts.iter().copied().zip(rows)
-    }
-
-    /// The entries and weights of successive rows of the same vertices, with their first vertex.
-    fn by_vertices<'r>(
-        &'r self,
-        weights: &'r [f64],
-    ) -> impl Iterator<Item = (usize, &'r [f64], &'r [f64])> {
-        let mut begin = 0;
-        self.firsts.chunk_by(|a, b| a == b).map(move |firsts| {
-            let rows = begin..begin + firsts.len();
-            begin = rows.end;
-            let entries = &self.entries[rows.start * self.width..rows.end * self.width];
-            (firsts[0], entries, &weights[rows])
-        })
+        self.entries.resize(self.firsts.len() * self.stride, 0.0);
     }
 
     /// The rows with their first vertices, to be changed.
     pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = (usize, &mut [f64])> {
-        let rows = self.entries.chunks_exact_mut(self.width.max(1));
+        let width = self.width;
+        let rows = self.entries.chunks_exact_mut(self.stride.max(1));
+        let rows = rows.map(move |row| &mut row[..width]);
         self.firsts.iter().copied().zip(rows)
+    }
+
+    /// The numbers of successive rows of the same vertices, with their first vertex.
+    fn by_vertices(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
+        let mut begin = 0;
+        self.firsts.chunk_by(|a, b| a == b).map(move |firsts| {
+            let rows = begin..begin + firsts.len();
+            begin = rows.end;
+            (firsts[0], rows)
+        })
+    }
+
+    /// The entries of some rows.
+    fn entries_of(&self, rows: Range<usize>) -> &[f64] {
+        &self.entries[rows.start * self.stride..rows.end * self.stride]
     }
 }
 
