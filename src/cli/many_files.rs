@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use super::ends::STANDARD;
-use crate::io::{Format, shown_path};
+use crate::io::{Format, disk, shown_path};
 
 /// The extension of results whose format is not told.
 const PROJECT: &str = "batten";
@@ -28,7 +28,7 @@ impl ManyFiles {
     ///
     /// # Errors
     /// Two files have one stem, whatever the case of its letters: some systems would take their results for one
-    /// file. Or a file has no stem, as the standard input.
+    /// file. Or a file has no stem, as the standard input. Or a file to write is one to read.
     pub(super) fn named(
         files: Vec<PathBuf>,
         folder: &Path,
@@ -56,8 +56,28 @@ impl ManyFiles {
             }
             named.push([file, out]);
         }
-        Ok(named)
+        match replaced(&named) {
+            Some([out, file]) => Err(format!(
+                "“{}” would replace the input “{}”: use another folder",
+                shown_path(out),
+                shown_path(file)
+            )),
+            None => Ok(named),
+        }
     }
+}
+
+/// Find a file to write that is one of those to read, with the name by which that is given.
+fn replaced(named: &[[PathBuf; 2]]) -> Option<[&Path; 2]> {
+    let inputs = named.iter().filter_map(|[file, _]| {
+        let canonical = disk::canonical(file)?;
+        Some((canonical, file.as_path()))
+    });
+    let inputs: HashMap<PathBuf, &Path> = inputs.collect();
+    named.iter().find_map(|[_, out]| {
+        let file = inputs.get(&disk::canonical(out)?)?;
+        Some([out.as_path(), *file])
+    })
 }
 
 #[cfg(test)]

@@ -82,9 +82,13 @@ pub fn read_stream(
     reading.map_err(FileError::at(name))
 }
 
+/// The one path of an existing file, whatever the spelling and the links by which it is given.
+pub fn canonical(path: &Path) -> Option<PathBuf> {
+    fs::canonicalize(path).ok()
+}
+
 /// Whether two paths lead to one file that exists.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
-    let canonical = |path: &Path| fs::canonicalize(path).ok();
     canonical(a).is_some_and(|a| canonical(b) == Some(a))
 }
 

@@ -168,6 +168,39 @@ fn equal_stems_are_refused_before_anything_is_written() {
 }
 
 #[test]
+fn no_result_replaces_an_input() {
+    let folder = three();
+    let before = fs::read(folder.path("arc.batten")).unwrap();
+    fs::create_dir(folder.path("out")).unwrap();
+    let check = |files: &[&'static str], dir, expected: &str| {
+        let arguments = [&["apply", "subdivide"], files, &["--out-dir", dir]].concat();
+        folder.misused(&arguments, expected);
+        assert_eq!(fs::read(folder.path("arc.batten")).unwrap(), before);
+        assert!(names(&folder.path("out")).len() <= 1);
+    };
+    check(
+        &["hull.csv", "arc.batten"],
+        ".",
+        "“./arc.batten” would replace the input “arc.batten”: use another folder",
+    );
+    check(
+        &["out/../arc.batten"],
+        "out/..",
+        "would replace the input “out/../arc.batten”",
+    );
+    #[cfg(unix)]
+    {
+        let link = folder.path("out/hull.batten");
+        std::os::unix::fs::symlink(folder.path("arc.batten"), link).unwrap();
+        check(
+            &["hull.csv", "arc.batten"],
+            "out",
+            "“out/hull.batten” would replace the input “arc.batten”",
+        );
+    }
+}
+
+#[test]
 fn only_operations_on_one_file_take_many() {
     let folder = three();
     let many = ["--out-dir", "out"];
