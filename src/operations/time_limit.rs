@@ -1,14 +1,16 @@
 //! The time that a search has, and what it has found meanwhile.
 
+use std::ops::Bound;
 use std::time::Duration;
 
 use super::lists::given;
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
-use super::parameter::{Kind, POSITIVE, Parameter};
+use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use crate::document::{Curve, Edit};
+use crate::geometry::parameters::{Limits, brief};
 use crate::geometry::{FloatPolygon, Progress};
 
 /// The time without a wish, in seconds.
@@ -18,24 +20,24 @@ const TIME: f64 = 10.0;
 pub(super) const TIME_LIMIT: Parameter = Parameter {
     name: "time-limit",
     label: "Time limit",
-    help: "The seconds after which the search ends with the best so far",
-    kind: Kind::optional_number(POSITIVE, |_| "10"),
+    help: "The seconds, at most 86400 (a day), after which the search ends with the best so far",
+    kind: Kind::optional_number(SECONDS, |_| "10"),
 };
 
-/// More time than any search takes. Without any limit a search could not be stopped.
-const LONGEST: Duration = Duration::from_secs(u32::MAX as u64);
+/// From more than nothing to a day: a search that takes longer is no search to wait for, and a typing
+/// error such as 1e9 would keep a machine of many files busy.
+const SECONDS: Limits = (Bound::Excluded(0.0), Bound::Included(86_400.0));
 
 /// Give a search the time that the values allow.
 pub(super) fn limited(progress: &Progress, values: &Values) -> Progress {
-    let limit = Duration::try_from_secs_f64(seconds(values));
-    progress.limited(limit.map_or(LONGEST, |limit| limit.min(LONGEST)))
+    progress.limited(Duration::from_secs_f64(seconds(values)))
 }
 
 /// Tell why a search ended before its end.
 pub(super) fn why_ended(progress: &Progress, values: &Values) -> String {
     match progress.is_stopped() {
         true => "Stopped".to_owned(),
-        false => format!("The time of {} s was up", seconds(values)),
+        false => format!("The time of {} s was up", brief(seconds(values))),
     }
 }
 

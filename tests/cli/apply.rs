@@ -957,6 +957,23 @@ fn what_the_arguments_alone_get_wrong_is_told_with_the_usage_of_the_operation() 
 }
 
 #[test]
+fn a_time_limit_is_a_day_at_most_and_told_with_few_digits() {
+    let rows: String = (0..40)
+        .map(|x| format!("{x},{}\n", f64::from(x * x % 7)))
+        .collect();
+    let folder = Folder::new().with("a.csv", format!("x,y\n{rows}"));
+    let fit = |limit| ["apply", "fit", "a.csv", "b.batten", "--time-limit", limit];
+    for limit in ["86401", "1e300"] {
+        let expected =
+            format!("Time limit: {limit} is out of range: more than 0 and at most 86400 is needed");
+        folder.misused(&fit(limit), &expected);
+    }
+    folder.misused(&fit("0"), "Time limit: 0 is out of range");
+    let (_, err) = texts(&folder.run(&fit("1e-300")));
+    assert!(err.contains("The time of 1e-300 s was up"), "{err}");
+}
+
+#[test]
 fn whole_numbers_take_arithmetic() {
     let folder = Folder::new();
     let degree = |text: &'static str| {

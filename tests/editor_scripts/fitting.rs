@@ -64,7 +64,7 @@ fn searching() -> (Script, Receiver<()>) {
     script.editor.run_in_background(Duration::ZERO, wake);
     let begun = script.editor.preview_operation(operation("fit"));
     begun.expect("it can run");
-    for (name, value) in [("tolerance", 1e-6), ("time-limit", 1e30)] {
+    for (name, value) in [("tolerance", 1e-6), ("time-limit", 86_400.0)] {
         let value = Value::List(vec![value]);
         let set = script.editor.operating().set_values(&[(name, value)]);
         set.expect("a value");
@@ -348,7 +348,7 @@ fn an_approximation_that_is_stopped_keeps_the_best_found() {
         for (name, value) in [
             ("degree", Value::Whole(2)),
             ("tolerance", Value::List(vec![1e-12])),
-            ("time-limit", Value::List(vec![1e9])),
+            ("time-limit", Value::List(vec![86_400.0])),
         ] {
             let set = script.editor.operating().set_values(&[(name, value)]);
             set.expect("a value");

@@ -107,7 +107,7 @@ pub fn check_limits(
     let needed = bounds_words(limits.0.map(text), limits.1.map(text));
     Err(OutOfRange {
         label,
-        value: quantity.shown(value).to_string().into(),
+        value: text(value).into(),
         needed: needed
             .unwrap_or_else(|| "a finite number".to_owned())
             .into(),
