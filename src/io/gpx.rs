@@ -1,15 +1,12 @@
 //! Tracks and routes of GPS devices in GPX, read only: each makes a list of points in metres.
-//!
-//! Positions go to the plane that touches the WGS 84 ellipsoid in their middle, x to the east and y to the
-//! north, by orthogonal projection: 1 m is lost at 60 km from the middle. Elevations are left out.
 
-use glam::{DMat3, DVec3};
 use roxmltree::{Document, Node};
 
 use super::error::{Place, Problem, ReadError};
 use super::format::Format;
-use super::reading::{Reading, Remark};
+use super::reading::Reading;
 use super::table_points::{PointReader, Row};
+use super::tangent_plane::position;
 use super::text::text;
 use crate::document::escaped;
 use crate::geometry::expressions::LengthUnit;
@@ -24,12 +21,6 @@ pub static GPX: Format = Format {
     holds_documents: false,
     exports: &[],
 };
-
-/// The semi-major axis of the ellipsoid in metres.
-const EQUATOR: f64 = 6_378_137.0;
-
-/// The flattening of the ellipsoid.
-const FLATTENING: f64 = 1.0 / 298.257_223_563;
 
 /// The points of a route, or of a segment of a track.
 struct Path {
@@ -72,28 +63,15 @@ fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
             _ => {}
         }
     }
-    let rows = paths.iter().flat_map(|path| &path.rows);
-    let sum: DVec3 = rows.map(|row| row.point).sum();
-    let Some(plane) = TangentPlane::below(sum) else {
-        return Err(Problem::NoTrack.into());
-    };
     let mut points = PointReader::new(None, ' ', Some(LengthUnit::Metre));
-    for mut path in paths {
-        path.rows
-            .iter_mut()
-            .for_each(|row| row.point = plane.point(row.point));
+    for path in paths {
         match path.rows.len() {
             0 | 1 => points.skip(path.line),
-            _ => points.add(path.line, path.name, path.rows)?,
+            _ => points.add(path.line, path.name, path.rows, true),
         }
     }
     let mut reading = Reading::default();
-    let [latitude, longitude] = [plane.latitude, plane.longitude].map(f64::to_degrees);
-    reading.remarks.add(Remark::TangentPlane {
-        latitude,
-        longitude,
-    });
-    points.finish(&mut reading);
+    points.finish(&mut reading)?;
     match reading.is_empty() {
         true => Err(Problem::NoTrack.into()),
         false => Ok(reading),
@@ -120,66 +98,14 @@ fn line(node: Node) -> usize {
 
 fn row(point: Node) -> Result<Row, ReadError> {
     let line = line(point);
-    let degrees = |attribute: &str, name: &'static str, most: f64| {
-        let value = point
-            .attribute(attribute)
-            .and_then(|it| it.trim().parse().ok());
-        let value = value.filter(|value: &f64| value.abs() <= most);
-        value.ok_or_else(|| Place::line(line).problem(Problem::NoPosition { name, most }))
-    };
-    let latitude = degrees("lat", "latitude", 90.0)?;
-    let longitude = degrees("lon", "longitude", 180.0)?;
-    let point = position(latitude.to_radians(), longitude.to_radians());
+    let degrees = |attribute: &str| point.attribute(attribute)?.trim().parse().ok();
+    let point = position(degrees("lat"), degrees("lon"));
+    let point = point.map_err(|problem| Place::line(line).problem(problem))?;
     Ok(Row {
         line,
         point,
         weight: None,
     })
-}
-
-/// The point of the ellipsoid at a latitude and a longitude, in metres from the centre of the earth.
-fn position(latitude: f64, longitude: f64) -> DVec3 {
-    let squeezed = (1.0 - FLATTENING).powi(2);
-    let (sine, cosine) = latitude.sin_cos();
-    let normal = EQUATOR / (cosine * cosine + squeezed * sine * sine).sqrt();
-    let (east, north) = longitude.sin_cos();
-    DVec3::new(cosine * north, cosine * east, squeezed * sine) * normal
-}
-
-/// The plane that touches the ellipsoid at a place.
-struct TangentPlane {
-    latitude: f64,
-    longitude: f64,
-    origin: DVec3,
-    /// East, north and up, as columns.
-    axes: DMat3,
-}
-
-impl TangentPlane {
-    /// Touch the ellipsoid in the direction of a vector from the centre of the earth; `None` if it is 0.
-    fn below(middle: DVec3) -> Option<Self> {
-        let middle = middle.try_normalize()?;
-        let squeezed = (1.0 - FLATTENING).powi(2);
-        let latitude = middle.z.atan2(squeezed * middle.truncate().length());
-        let longitude = middle.y.atan2(middle.x);
-        let ((s, c), (east, north)) = (latitude.sin_cos(), longitude.sin_cos());
-        let axes = [
-            DVec3::new(-east, north, 0.0),
-            DVec3::new(-s * north, -s * east, c),
-            DVec3::new(c * north, c * east, s),
-        ];
-        Some(Self {
-            latitude,
-            longitude,
-            origin: position(latitude, longitude),
-            axes: DMat3::from_cols(axes[0], axes[1], axes[2]),
-        })
-    }
-
-    fn point(&self, position: DVec3) -> DVec3 {
-        let [east, north, _] = (self.axes.transpose() * (position - self.origin)).to_array();
-        DVec3::new(east, north, 0.0)
-    }
 }
 
 #[cfg(test)]

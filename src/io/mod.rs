@@ -38,6 +38,7 @@ mod table_columns;
 mod table_header;
 mod table_lines;
 mod table_points;
+mod tangent_plane;
 mod text;
 
 pub use airfoil_order::AirfoilOrder;

@@ -119,7 +119,7 @@ fn read_columns(bytes: &[u8], choice: Option<&ColumnChoice>) -> Result<Reading, 
     }
     comments.remark(&mut reading.remarks);
     reading.remarks.extend(remarks);
-    points.finish(&mut reading);
+    points.finish(&mut reading)?;
     if let Some(vanished) = vanished {
         reading.remarks.add(vanished);
     }

@@ -15,6 +15,27 @@ pub(super) const COLUMNS: [&str; 4] = ["x", "y", "z", "weight"];
 /// The column of weights, which points have only where it is chosen.
 pub(super) const WEIGHT: usize = 3;
 
+/// The names of coordinates x, y and, in space, z, in the order of preference.
+const COORDINATES: [[&[&str]; 3]; 1] = [[&["x"], &["y"], &["z"]]];
+
+/// The names of longitude and latitude, in degrees.
+const POSITION: [&[&str]; 2] = [&["lon", "long", "lng", "longitude"], &["lat", "latitude"]];
+
+/// What stands behind the names of longitude and latitude: degrees.
+const DEGREES: [&str; 11] = [
+    "deg",
+    "degree",
+    "degrees",
+    "°",
+    "dd",
+    "deg n",
+    "deg e",
+    "°n",
+    "°e",
+    "degrees_north",
+    "degrees_east",
+];
+
 /// Words behind x or y that are no unit: of a chord, or of nothing.
 const NO_UNIT: [&str; 5] = ["c", "chord", "-", "1", ""];
 
@@ -134,6 +155,25 @@ impl FromStr for ColumnChoice {
     }
 }
 
+/// The columns of the coordinates of points.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Coordinates {
+    /// The columns of x, y and, in space, z, counted from 0.
+    pub(super) places: Vec<usize>,
+    /// Whether x and y are longitude and latitude in degrees.
+    pub(super) are_on_earth: bool,
+}
+
+impl Coordinates {
+    /// Coordinates that are lengths.
+    pub(super) fn of_lengths(places: Vec<usize>) -> Self {
+        Self {
+            places,
+            are_on_earth: false,
+        }
+    }
+}
+
 /// The line of a table that names its columns.
 #[derive(Clone, Debug)]
 pub(super) struct ColumnNames(Vec<String>);
@@ -165,13 +205,36 @@ impl ColumnNames {
         name.filter(|name| !name.is_empty())
     }
 
-    /// The columns x, y and, if there is one, z, counted from 0; `None` if x or y is not there once.
-    pub(super) fn coordinates(&self) -> Option<Vec<usize>> {
-        let [x, y, z] = [0, 1, 2].map(|axis| {
-            let mut places = (0..self.count()).filter(|place| self.axis(*place) == Some(axis));
-            places.next().filter(|_| places.next().is_none())
+    /// The columns of coordinates by their names; `None` if no two of them are there once.
+    pub(super) fn coordinates(&self) -> Option<Coordinates> {
+        let lengths = COORDINATES.iter().find_map(|[x, y, z]| {
+            let plane = [self.only(x)?, self.only(y)?].into_iter();
+            Some(plane.chain(self.only(z)).collect())
         });
-        Some([x?, y?].into_iter().chain(z).collect())
+        let lengths = lengths.map(Coordinates::of_lengths);
+        lengths.or_else(|| {
+            let [longitude, latitude] = POSITION.map(|words| self.only(words));
+            Some(Coordinates {
+                places: vec![longitude?, latitude?],
+                are_on_earth: true,
+            })
+            .filter(|it| it.places.iter().all(|place| self.is_in_degrees(*place)))
+        })
+    }
+
+    /// The only column with one of some names.
+    fn only(&self, words: &[&str]) -> Option<usize> {
+        let is_named = |place: &usize| {
+            let name = self.get(*place);
+            name.is_some_and(|name| words.iter().any(|word| unit_behind(name, word).is_some()))
+        };
+        let mut places = (0..self.count()).filter(is_named);
+        places.next().filter(|_| places.next().is_none())
+    }
+
+    fn is_in_degrees(&self, place: usize) -> bool {
+        let unit = self.unit(place);
+        unit.is_none_or(|unit| DEGREES.contains(&unit.to_lowercase().as_str()))
     }
 
     /// Whether there is a column of weights.
@@ -182,12 +245,17 @@ impl ColumnNames {
     /// The word in the place of a unit in the name of a column.
     pub(super) fn unit(&self, place: usize) -> Option<&str> {
         let name = self.get(place)?;
-        let unit = parts(name).map_or_else(|| bracketed(name), |(_, unit)| unit);
+        let words = COORDINATES.as_flattened().iter().chain(&POSITION);
+        let mut words = words.copied().flatten().chain([&COLUMNS[WEIGHT]]);
+        let unit = words.find_map(|word| unit_behind(name, word));
+        let unit = unit.unwrap_or_else(|| bracketed(name));
         unit.filter(|unit| !NO_UNIT.contains(&unit.to_lowercase().as_str()))
     }
 
     fn axis(&self, place: usize) -> Option<usize> {
-        parts(self.get(place)?).map(|(axis, _)| axis)
+        let name = self.get(place)?;
+        let mut words = COLUMNS.iter();
+        words.position(|word| unit_behind(name, word).is_some())
     }
 
     fn place_of(&self, name: &str) -> Option<usize> {
@@ -214,26 +282,28 @@ pub(super) fn columns(
     places.into_iter().map(column).collect()
 }
 
-/// Take a name such as `x`, `x/c`, `X [mm]`, `y(m)` or `z_in` apart: which of [`COLUMNS`] it is, and the word
-/// in the place of a unit.
-fn parts(name: &str) -> Option<(usize, Option<&str>)> {
-    let name = name.trim();
-    COLUMNS.iter().enumerate().find_map(|(axis, column)| {
-        let (start, rest) = name.split_at_checked(column.len())?;
-        if !start.eq_ignore_ascii_case(column) {
-            return None;
-        }
-        let is_bracket = rest.trim_start().starts_with(['[', '(']);
-        let unit = bracketed(rest).filter(|_| is_bracket);
-        let unit = unit.or_else(|| rest.strip_prefix('/'));
-        let bare = rest.strip_prefix(['_', ' ']);
-        let unit = unit.or_else(|| bare.filter(|it| LengthUnit::of_symbol(it).is_some()));
-        match (rest, unit) {
-            ("", _) => Some((axis, None)),
-            (_, Some(unit)) if !unit.contains(' ') => Some((axis, Some(unit.trim()))),
-            _ => None,
-        }
-    })
+/// Take a name such as `x`, `x/c`, `X [mm]`, `y(m)` or `z_in` apart: the word in the place of a unit, which may be
+/// left out, behind a word; `None` if the name is another one.
+fn unit_behind<'a>(name: &'a str, word: &str) -> Option<Option<&'a str>> {
+    let (start, rest) = name.trim().split_at_checked(word.len())?;
+    if !start.eq_ignore_ascii_case(word) {
+        return None;
+    }
+    let is_bracket = rest.trim_start().starts_with(['[', '(']);
+    let unit = bracketed(rest).filter(|_| is_bracket);
+    let unit = unit.or_else(|| rest.strip_prefix('/'));
+    let bare = rest.strip_prefix(['_', ' ']);
+    let unit = unit.or_else(|| bare.filter(|it| is_unit(it)));
+    match (rest, unit) {
+        ("" | ".", _) => Some(None),
+        (_, Some(unit)) if !unit.contains(' ') || is_unit(unit) => Some(Some(unit.trim())),
+        _ => None,
+    }
+}
+
+/// Whether a word is a unit of length, or degrees.
+fn is_unit(word: &str) -> bool {
+    LengthUnit::of_symbol(word).is_some() || DEGREES.contains(&word.to_lowercase().as_str())
 }
 
 /// The word in brackets at the end of a name.
@@ -274,26 +344,56 @@ mod tests {
 
     #[test]
     fn a_name_is_taken_apart_into_axis_and_unit() {
-        for (name, expected) in [
-            ("x", Some((0, None))),
-            ("X [mm]", Some((0, Some("mm")))),
-            ("y(m)", Some((1, Some("m")))),
-            ("z_in", Some((2, Some("in")))),
-            ("y/c", Some((1, Some("c")))),
-            ("x mm", Some((0, Some("mm")))),
-            ("Weight", Some((3, None))),
-            ("x velocity", None),
-            ("xy", None),
-            ("chord", None),
-            ("ξ", None),
+        for (word, name, expected) in [
+            ("x", "x", Some(None)),
+            ("x", "X [mm]", Some(Some("mm"))),
+            ("y", "y(m)", Some(Some("m"))),
+            ("z", "z_in", Some(Some("in"))),
+            ("y", "y/c", Some(Some("c"))),
+            ("x", "x mm", Some(Some("mm"))),
+            ("weight", "Weight", Some(None)),
+            ("lat", "Lat_deg", Some(Some("deg"))),
+            ("lat", "lateral", None),
+            ("x", "x velocity", None),
+            ("x", "xy", None),
+            ("x", "chord", None),
+            ("x", "ξ", None),
         ] {
-            assert_eq!(parts(name), expected, "{name}");
+            assert_eq!(unit_behind(name, word), expected, "{name}");
         }
         let names = |line| ColumnNames::of(&Fields::of(line, ' '));
-        assert_eq!(names("X (mm) Y (mm) note").coordinates(), Some(vec![0, 1]));
+        let places = |line| names(line).coordinates().map(|it| it.places);
+        assert_eq!(places("X (mm) Y (mm) note"), Some(vec![0, 1]));
         assert_eq!(names("X (mm) Y (mm)").unit(1), Some("mm"));
         assert_eq!(names("x/c y/c").unit(0), None);
-        assert_eq!(names("x x y").coordinates(), None);
+        assert_eq!(places("x x y"), None);
+    }
+
+    #[test]
+    fn longitude_and_latitude_are_told_by_their_names() {
+        let told = |line| ColumnNames::of(&Fields::of(line, ',')).coordinates();
+        for line in [
+            "lat,lon",
+            "LATITUDE,Longitude",
+            "lat [deg],long (°)",
+            "lat_deg,lng_deg,ele",
+            "\"Lat.\",\"Lon.\"",
+            "Latitude (deg N),Longitude (deg E)",
+        ] {
+            let found = told(line).unwrap_or_else(|| panic!("{line}"));
+            assert_eq!((found.places, found.are_on_earth), (vec![1, 0], true));
+        }
+        for line in [
+            "lat [m],lon [m]",
+            "lat,lat,lon",
+            "lateral,longitudinal",
+            "lat (rad),lon (rad)",
+        ] {
+            assert_eq!(told(line), None, "{line}");
+        }
+        // Who has projected the positions already has done so for a reason.
+        let both = told("lat,lon,x,y").map(|it| (it.places, it.are_on_earth));
+        assert_eq!(both, Some((vec![2, 3], false)));
     }
 
     #[test]

@@ -9,8 +9,9 @@ use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer};
 use super::decimals::{Decimals, is_number};
 use super::error::{Place, Problem, ReadError};
 use super::reading::{Reading, Remark, Remarks};
-use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, WEIGHT, columns};
+use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, Coordinates, WEIGHT, columns};
 use super::table_lines::{Fields, LineContent, TableLine};
+use super::tangent_plane::{TangentPlane, position};
 use crate::document::Reference;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{PointList, ReferenceCurve, ReferenceError, ReferenceForm};
@@ -38,7 +39,7 @@ pub(super) struct PointReader<'a> {
     choice: Option<&'a ColumnChoice>,
     separator: char,
     unit: Option<LengthUnit>,
-    references: Vec<Reference>,
+    lists: Vec<List>,
     skipped: Vec<usize>,
     repeated: Vec<usize>,
     too_large: Option<(String, Vec<usize>)>,
@@ -56,6 +57,16 @@ pub(super) struct Row {
     pub(super) weight: Option<f64>,
 }
 
+/// Rows that make a list of points.
+struct List {
+    /// The line where it begins.
+    line: usize,
+    name: String,
+    rows: Vec<Row>,
+    /// Whether the points are positions on the earth, in metres from its centre.
+    is_on_earth: bool,
+}
+
 /// Rows without a blank line between them, with the text above them.
 #[derive(Default)]
 struct Block {
@@ -71,8 +82,8 @@ struct Layout {
     named: usize,
     /// The line with the names.
     names: Option<usize>,
-    /// The columns of x, y and, in space, z, counted from 0.
-    places: Vec<usize>,
+    /// The columns of the coordinates.
+    coordinates: Coordinates,
     /// The column of weights.
     weight: Option<usize>,
 }
@@ -110,7 +121,7 @@ impl<'a> PointReader<'a> {
             choice,
             separator,
             unit,
-            references: Vec::new(),
+            lists: Vec::new(),
             skipped: Vec::new(),
             repeated: Vec::new(),
             too_large: None,
@@ -140,7 +151,11 @@ impl<'a> PointReader<'a> {
             let error = ReferenceError::TooFewPoints { found };
             return Err(Place::line(section.line).problem(error.into()));
         }
-        let (blocks, lednicer) = self.in_order(blocks);
+        let is_on_earth = layout.is_some_and(|layout| layout.coordinates.are_on_earth);
+        let (blocks, lednicer) = match is_on_earth {
+            true => (blocks, None),
+            false => self.in_order(blocks),
+        };
         let blocks = self.joined(blocks);
         let title = blocks.first().and_then(|block| block.title.clone());
         let title = title.map(|(_, title)| title).or(section.name.clone());
@@ -160,10 +175,11 @@ impl<'a> PointReader<'a> {
             let points: Vec<DVec3> = block.rows.iter().map(|row| row.point).collect();
             let order = match lednicer {
                 Some(order) => Some(order),
+                None if is_on_earth => None,
                 None => is_selig(&points).then_some(AirfoilOrder::Selig),
             };
-            self.add(section.line, own.or(numbered), block.rows)?;
-            if let (Some(order), Some(added)) = (order, self.references.last()) {
+            self.add(section.line, own.or(numbered), block.rows, is_on_earth);
+            if let (Some(order), Some(added)) = (order, self.lists.last()) {
                 let name = added.name.clone();
                 self.remarks.add(Remark::Airfoil { name, order });
             }
@@ -172,9 +188,17 @@ impl<'a> PointReader<'a> {
     }
 
     /// Add what was read to the content of the file.
-    pub(super) fn finish(mut self, reading: &mut Reading) {
+    ///
+    /// # Errors
+    /// [`ReadError`] if the points make no list.
+    pub(super) fn finish(mut self, reading: &mut Reading) -> Result<(), ReadError> {
         reading.unit = reading.unit.or(self.unit);
-        reading.references.append(&mut self.references);
+        let mut lists = std::mem::take(&mut self.lists);
+        self.project(&mut lists);
+        for (list, number) in lists.into_iter().zip(1..) {
+            let reference = self.reference(number, list)?;
+            reading.references.push(reference);
+        }
         for (lines, remark) in [
             (self.skipped, Remark::Skipped as fn(Vec<usize>) -> Remark),
             (self.repeated, Remark::Repeated),
@@ -187,6 +211,28 @@ impl<'a> PointReader<'a> {
             self.remarks.add(Remark::TooLarge { text, lines });
         }
         reading.remarks.extend(self.remarks);
+        Ok(())
+    }
+
+    /// Project the positions on the earth to one plane.
+    fn project(&mut self, lists: &mut [List]) {
+        let on_earth = lists.iter_mut().filter(|list| list.is_on_earth);
+        let mut rows: Vec<&mut Row> = on_earth.flat_map(|list| &mut list.rows).collect();
+        let sum = rows.iter().map(|row| row.point).sum();
+        // Only positions all around the earth have their middle at its centre.
+        let any = rows.first().map(|row| row.point).unwrap_or_default();
+        let plane = TangentPlane::below(sum).or_else(|| TangentPlane::below(any));
+        let Some(plane) = plane else {
+            return;
+        };
+        for row in &mut rows {
+            row.point = plane.point(row.point);
+        }
+        let [latitude, longitude] = [plane.latitude, plane.longitude].map(f64::to_degrees);
+        self.remarks.add(Remark::TangentPlane {
+            latitude,
+            longitude,
+        });
     }
 
     /// Find out which columns hold the coordinates; `None` if no line can be a row.
@@ -210,25 +256,33 @@ impl<'a> PointReader<'a> {
         let weight = self.choice.map(|choice| choice.weight(named, most));
         let weight = weight.transpose().map_err(|it| place.clone().problem(it))?;
         let chosen = self.choice.filter(|choice| choice.has_coordinates());
-        let places = match (chosen, named) {
-            (Some(choice), _) => choice.places(named, most),
+        let coordinates = match (chosen, named) {
+            (Some(choice), _) => choice.places(named, most).map(Coordinates::of_lengths),
             (None, Some(names)) if self.choice.is_none() && names.has_weights() => {
                 Err(Problem::NoTableHeader)
             }
             (None, _) => {
-                let places = named.and_then(ColumnNames::coordinates);
-                places.map_or_else(|| self.numeric(&rows, count, named, weight.flatten()), Ok)
+                let named_so = named.and_then(ColumnNames::coordinates);
+                let numeric = || {
+                    let places = self.numeric(&rows, count, named, weight.flatten());
+                    places.map(Coordinates::of_lengths)
+                };
+                named_so.map_or_else(numeric, Ok)
             }
         };
-        let places = places.map_err(|it| place.problem(it))?;
+        let coordinates = coordinates.map_err(|it| place.problem(it))?;
         if let Some((line, names)) = &names {
-            self.take_unit(*line, names, &places)?;
+            let taken = match coordinates.are_on_earth {
+                true => self.take_unit(LengthUnit::Metre),
+                false => self.take_units(names, &coordinates.places),
+            };
+            taken.map_err(|problem| Place::line(*line).problem(problem))?;
         }
         Ok(Some(Layout {
             count,
             named: names.as_ref().map_or(0, |(_, names)| names.count()),
             names: names.map(|(line, _)| line),
-            places,
+            coordinates,
             weight: weight.flatten(),
         }))
     }
@@ -262,8 +316,9 @@ impl<'a> PointReader<'a> {
         let row = section.fields().find(|(line, _)| *line == first);
         let width = row.map_or(count, |(_, fields)| fields.width);
         let fits = [count, width].contains(&names.count());
-        let places = names.coordinates();
-        let are_there = places.is_some_and(|it| it.iter().all(|place| *place < count.max(width)));
+        let is_there = |place: &usize| *place < count.max(width);
+        let coordinates = names.coordinates();
+        let are_there = coordinates.is_some_and(|it| it.places.iter().all(is_there));
         let are_names = are_there || (fits && !is_title);
         are_names.then_some((line, names))
     }
@@ -308,24 +363,15 @@ impl<'a> PointReader<'a> {
         }
     }
 
-    /// Take the unit of the columns.
+    /// Take the units of the columns.
     ///
     /// # Errors
     /// [`Problem::MixedUnits`].
-    fn take_unit(
-        &mut self,
-        line: usize,
-        names: &ColumnNames,
-        places: &[usize],
-    ) -> Result<(), ReadError> {
+    fn take_units(&mut self, names: &ColumnNames, places: &[usize]) -> Result<(), Problem> {
         for text in places.iter().filter_map(|place| names.unit(*place)) {
-            match (LengthUnit::of_symbol(text), self.unit) {
-                (Some(unit), Some(known)) if unit != known => {
-                    let problem = Problem::MixedUnits([known, unit]);
-                    return Err(Place::line(line).problem(problem));
-                }
-                (Some(unit), _) => self.unit = Some(unit),
-                (None, _) => {
+            match LengthUnit::of_symbol(text) {
+                Some(unit) => self.take_unit(unit)?,
+                None => {
                     let remark = Remark::UnknownUnit(text.to_owned());
                     if !self.remarks.contains(&remark) {
                         self.remarks.add(remark);
@@ -334,6 +380,17 @@ impl<'a> PointReader<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Take a unit, which must be the one that is known already.
+    ///
+    /// # Errors
+    /// [`Problem::MixedUnits`].
+    fn take_unit(&mut self, unit: LengthUnit) -> Result<(), Problem> {
+        match self.unit.replace(unit) {
+            Some(known) if known != unit => Err(Problem::MixedUnits([known, unit])),
+            _ => Ok(()),
+        }
     }
 
     /// Divide a section at its blank lines.
@@ -417,18 +474,34 @@ impl<'a> PointReader<'a> {
         self.skipped.push(line);
     }
 
-    /// Add a list of points without repeated ones; `first` is the line where it begins.
-    ///
-    /// # Errors
-    /// [`ReadError`] if the points make no list.
+    /// Add a list of points; `first` is the line where it begins.
     pub(super) fn add(
         &mut self,
         first: usize,
         name: Option<String>,
-        mut rows: Vec<Row>,
-    ) -> Result<(), ReadError> {
-        let number = self.references.len() + 1;
-        let name = name.unwrap_or_else(|| format!("points {number}"));
+        rows: Vec<Row>,
+        is_on_earth: bool,
+    ) {
+        let number = self.lists.len() + 1;
+        self.lists.push(List {
+            line: first,
+            name: name.unwrap_or_else(|| format!("points {number}")),
+            rows,
+            is_on_earth,
+        });
+    }
+
+    /// Make a reference of a list, without repeated points.
+    ///
+    /// # Errors
+    /// [`ReadError`] if the points make no list.
+    fn reference(&mut self, number: usize, list: List) -> Result<Reference, ReadError> {
+        let List {
+            line: first,
+            name,
+            mut rows,
+            ..
+        } = list;
         let repeated = &mut self.repeated;
         rows.dedup_by(|row, before| {
             let is_repeated = row.point == before.point;
@@ -455,8 +528,7 @@ impl<'a> PointReader<'a> {
             };
             place.problem(error.into())
         });
-        self.references.push(Reference::new(name.clone(), curve?));
-        Ok(())
+        Ok(Reference::new(name.clone(), curve?))
     }
 }
 
@@ -478,23 +550,29 @@ impl Layout {
             return Ok(Found::Text);
         }
         let text = |place: &usize| fields.values.get(*place).map_or("", |text| text.as_ref());
-        let texts: Vec<&str> = self.places.iter().chain(&self.weight).map(text).collect();
+        let places = &self.coordinates.places;
+        let texts: Vec<&str> = places.iter().chain(&self.weight).map(text).collect();
         if let Some(text) = texts.iter().find(|text| is_too_large(text)) {
             return Ok(Found::TooLarge((*text).to_owned()));
         }
         if !texts.iter().all(|text| is_number(text)) {
             return Ok(Found::Text);
         }
-        let (coordinates, weight) = texts.split_at(self.places.len());
+        let (coordinates, weight) = texts.split_at(places.len());
         let mut point = [0.0; 3];
         for ((value, text), column) in point.iter_mut().zip(coordinates).zip(COLUMNS) {
             *value = decimals.number(text, column, line)?;
         }
         let weight = weight.first().copied();
         let weight = weight.map(|text| decimals.number(text, COLUMNS[WEIGHT], line));
+        let [x, y, z] = point;
+        let point = match self.coordinates.are_on_earth {
+            true => position(Some(y), Some(x))?,
+            false => DVec3::new(x, y, z),
+        };
         Ok(Found::Row(Row {
             line,
-            point: DVec3::from_array(point),
+            point,
             weight: weight.transpose()?,
         }))
     }

@@ -648,3 +648,41 @@ fn listings_of_other_programs_are_read() {
         assert_eq!(points_of(&bytes), expected, "{text} in UTF-16");
     }
 }
+
+#[test]
+fn latitude_and_longitude_are_read_as_those_of_a_track() {
+    let positions = [[54.0, 10.0], [54.0, 10.01], [54.02, 10.01]];
+    let track = positions.map(|[lat, lon]| format!("<rtept lat=\"{lat}\" lon=\"{lon}\"/>"));
+    let track = format!("<gpx><rte>{}</rte></gpx>", track.concat());
+    let track = crate::io::GPX.read(track.as_bytes()).unwrap();
+    let expected = track.references[0].points();
+    for (names, is_swapped) in [("lat,lon", false), ("Longitude [deg],Latitude [deg]", true)] {
+        let rows = positions.map(|[lat, lon]| match is_swapped {
+            false => format!("{lat},{lon}\n"),
+            true => format!("{lon},{lat}\n"),
+        });
+        let text = format!("{names}\n{}", rows.concat());
+        let reading = TABLE.read(text.as_bytes()).unwrap();
+        assert_eq!(reading.references[0].points(), expected, "{text}");
+        assert_eq!(reading.unit, Some(LengthUnit::Metre));
+        assert_eq!(reading.remarks, track.remarks, "{text}");
+    }
+    // Two lists of one file lie in one plane.
+    let two = "lat,lon\n54,10\n54,10.01\n\n54.01,10\n54.01,10.01\n";
+    let reading = TABLE.read(two.as_bytes()).unwrap();
+    let middle = reading.references.iter().filter_map(Reference::points);
+    let middle: DVec3 = middle.flatten().sum();
+    assert!(middle.length() < 1.0, "{middle}");
+    // Columns that are chosen are taken as they are.
+    let choice = "lon,lat".parse().unwrap();
+    let reading = TABLE.read_columns(two.as_bytes(), Some(&choice)).unwrap();
+    assert_eq!(reading.references[0].points().unwrap()[1].x, 10.01);
+    let error = |text: &str| TABLE.read(text.as_bytes()).unwrap_err().to_string();
+    let needed = "line 3: a point needs a latitude, a number from -90 to 90";
+    assert_eq!(error("lat,lon\n1,2\n91,2\n"), needed);
+    let mixed = error("# unit=mm\nlat,lon\n1,2\n2,2\n");
+    assert!(
+        mixed.contains("the columns are in millimetres and in metres"),
+        "{mixed}"
+    );
+}
