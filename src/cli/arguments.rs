@@ -28,7 +28,7 @@ const LEAST_LIKENESS: f64 = 0.7;
 #[derive(Debug, Parser)]
 #[command(name = "batten", version, args_conflicts_with_subcommands = true)]
 #[command(
-    after_help = "Formats are told by their extensions: .batten, .csv, .dat, .txt, .xyz and .pts are read and written, .gpx is read, .dxf is written.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place, or what was asked for is not reached; 2 bad usage."
+    after_help = "Formats are told by their extensions: .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc and .xy are read and written, .gpx is read, .dxf is written.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place, or what was asked for is not reached; 2 bad usage."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]

@@ -9,8 +9,8 @@ use super::output::{self, Messages};
 use crate::document::Document;
 use crate::geometry::expressions::LengthUnit;
 use crate::io::{
-    ColumnChoice, Export, FileError, FileProblem, Format, Problem, ReadError, Reading, disk,
-    formats, shown_path,
+    ColumnChoice, Export, FileError, FileProblem, Format, FormatError, Problem, ReadError, Reading,
+    disk, formats, shown_path,
 };
 
 /// The name that stands for the standard input or output.
@@ -63,6 +63,9 @@ impl Source {
                 problem: Problem::AmbiguousColumns(_),
                 ..
             }) => anyhow!("{error} with --columns, as in --columns 1,2"),
+            FileProblem::Format(FormatError::UnknownExtension { .. }) => {
+                anyhow!("{error}, or name its format with --from-format")
+            }
             _ => error.into(),
         })?;
         messages.report(&self.name(), &reading.remarks);

@@ -8,10 +8,10 @@ use super::format::{Exporter, Format};
 use super::gpx::GPX;
 use super::point_table::POINT_TABLE;
 use super::project::PROJECT;
-use super::table::TABLE;
+use super::table::{TAB_TABLE, TABLE};
 
 /// Every format, in the order of dialogs and menus.
-pub static FORMATS: [&Format; 5] = [&PROJECT, &TABLE, &POINT_TABLE, &GPX, &DXF];
+pub static FORMATS: [&Format; 6] = [&PROJECT, &TABLE, &TAB_TABLE, &POINT_TABLE, &GPX, &DXF];
 
 /// List the formats that can be read.
 pub fn readable() -> impl Iterator<Item = &'static Format> {
@@ -117,7 +117,7 @@ mod tests {
             let error = to_read(Path::new(path)).unwrap_err();
             assert_eq!(error.to_string(), expected);
         };
-        let readable = ".batten, .csv, .dat, .txt, .xyz, .pts, .gpx";
+        let readable = ".batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .gpx";
         check(
             "a.docx",
             &format!("“.docx” is not a format Batten knows: use one of {readable}"),
@@ -136,7 +136,7 @@ mod tests {
             let error = to_write(Path::new(path)).unwrap_err();
             assert_eq!(error.to_string(), expected);
         };
-        let writable = ".batten, .csv, .dat, .txt, .xyz, .pts, .dxf";
+        let writable = ".batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf";
         check(
             "a.docx",
             &format!("“.docx” is not a format Batten knows: use one of {writable}"),

@@ -55,7 +55,7 @@ pub use point_table::POINT_TABLE;
 pub use project::PROJECT;
 pub use reading::{Owner, Reading, Remark, Remarks, counted_items};
 pub use sessions::{AbandonedSession, Session, Sessions};
-pub use table::TABLE;
+pub use table::{TAB_TABLE, TABLE};
 pub use table_column::TableColumn;
 pub use table_columns::ColumnChoice;
 

@@ -22,7 +22,7 @@ use crate::geometry::PolygonKind;
 /// The row of the table of formats.
 pub static POINT_TABLE: Format = Format {
     name: "point table",
-    extensions: &["dat", "txt", "xyz", "pts"],
+    extensions: &["dat", "txt", "xyz", "pts", "asc", "xy"],
     read: Some(table::read),
     read_chosen: Some(table::read_chosen),
     write: Some(write),

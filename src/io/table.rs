@@ -67,6 +67,17 @@ const fn export(label: &'static str, polygon: PolygonKind) -> ExportRow {
     }
 }
 
+/// The row of the same tables with tabs between the columns.
+pub static TAB_TABLE: Format = Format {
+    name: "TSV table",
+    extensions: &["tsv"],
+    read: Some(read),
+    read_chosen: Some(read_chosen),
+    write: Some(write_with_tabs),
+    holds_documents: false,
+    exports: &[],
+};
+
 /// What begins the line that says the unit.
 const UNIT_LINE: &str = "# unit=";
 
@@ -276,11 +287,30 @@ fn write(
     polygon: Option<PolygonKind>,
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
+    write_separated(document, polygon, losses, &TABLE, b',')
+}
+
+fn write_with_tabs(
+    document: &Document,
+    polygon: Option<PolygonKind>,
+    losses: &mut LossReport,
+) -> Result<Vec<u8>, WriteError> {
+    write_separated(document, polygon, losses, &TAB_TABLE, b'\t')
+}
+
+fn write_separated(
+    document: &Document,
+    polygon: Option<PolygonKind>,
+    losses: &mut LossReport,
+    format: &Format,
+    separator: u8,
+) -> Result<Vec<u8>, WriteError> {
     let unit = document.unit().map(unit_line);
     let mut bytes = unit.unwrap_or_default().into_bytes();
     let mut blocks = Vec::new();
     for (_, curve) in document.curves() {
-        blocks.push(curve_block(curve, polygon.unwrap_or_default(), losses));
+        let kind = polygon.unwrap_or_default();
+        blocks.push(curve_block(curve, kind, losses, separator));
         losses.add_attributes(curve);
         losses.add_if(!curve.visible, curve, Loss::Hidden);
         losses.add_if(curve.locked, curve, Loss::Locked);
@@ -288,14 +318,16 @@ fn write(
     for (_, reference) in document.references() {
         match reference.points() {
             Some(points) => {
-                blocks.push(points_block(reference, &points));
+                blocks.push(points_block(reference, &points, separator));
                 losses.add_point_weights(reference);
             }
             None => losses.add_reference(reference),
         }
     }
     if blocks.is_empty() {
-        return Err(WriteError::NoCurves { format: TABLE.name });
+        return Err(WriteError::NoCurves {
+            format: format.name,
+        });
     }
     for block in blocks {
         if !bytes.is_empty() {
@@ -306,16 +338,22 @@ fn write(
     Ok(bytes)
 }
 
-fn points_block(reference: &Reference, points: &[DVec3]) -> csv::Result<Vec<u8>> {
+fn points_block(reference: &Reference, points: &[DVec3], separator: u8) -> csv::Result<Vec<u8>> {
     let header = TableHeader {
         curve: None,
         name: Some(reference.name.clone()),
     };
     let planar = points.iter().all(|point| point.z == 0.0);
-    block(&header, if planar { 2 } else { 3 }, points, None)
+    let columns = if planar { 2 } else { 3 };
+    block(&header, columns, points, None, separator)
 }
 
-fn curve_block(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv::Result<Vec<u8>> {
+fn curve_block(
+    curve: &Curve,
+    kind: PolygonKind,
+    losses: &mut LossReport,
+    separator: u8,
+) -> csv::Result<Vec<u8>> {
     let polygon = FilePolygon::of(&curve.polygon, kind);
     losses.extend(curve, polygon.losses(&curve.polygon));
     let header = TableHeader {
@@ -332,7 +370,7 @@ fn curve_block(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> csv
         (None, true) => 2,
     };
     let weights = polygon.weights.as_deref();
-    block(&header, columns, &polygon.vertices, weights)
+    block(&header, columns, &polygon.vertices, weights, separator)
 }
 
 /// Write a table with the first `columns` of [`COLUMNS`].
@@ -341,8 +379,11 @@ fn block(
     columns: usize,
     points: &[DVec3],
     weights: Option<&[f64]>,
+    separator: u8,
 ) -> csv::Result<Vec<u8>> {
-    let mut writer = WriterBuilder::new().flexible(true).from_writer(Vec::new());
+    let mut writer = WriterBuilder::new();
+    let writer = writer.flexible(true).delimiter(separator);
+    let mut writer = writer.from_writer(Vec::new());
     writer.write_record([header.to_line()])?;
     writer.write_record(&COLUMNS[..columns])?;
     for (index, point) in points.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! The unit of length through every format.
 
-use super::{DXF, Format, PROJECT, TABLE};
+use super::{DXF, Format, PROJECT, TAB_TABLE, TABLE};
 use crate::document::{Curve, Document, Edit};
 use crate::geometry::FloatPolygon;
 use crate::geometry::expressions::LengthUnit;
@@ -24,10 +24,14 @@ fn written(format: &Format, unit: Option<LengthUnit>) -> String {
 #[test]
 fn projects_and_tables_keep_it() {
     for unit in units() {
-        for format in [&PROJECT, &TABLE] {
+        for format in [&PROJECT, &TABLE, &TAB_TABLE] {
             let text = written(format, unit);
             let reading = format.read(text.as_bytes()).expect("what was written");
-            assert_eq!(reading.remarks.to_string(), "", "{text}");
+            let told = match format.extension() {
+                "tsv" => "read with tabs between columns",
+                _ => "",
+            };
+            assert_eq!(reading.remarks.to_string(), told, "{text}");
             assert_eq!(reading.unit, unit, "{text}");
             let back = reading.into_document().expect("a document");
             assert!(back.is_same(&document(unit)));

@@ -535,7 +535,7 @@ fn bad_values_and_bad_usage_are_told_apart() {
     );
     folder.refused(
         &["apply", "reverse", &file, "out.docx"],
-        "out.docx: “.docx” is not a format Batten knows: use one of .batten, .csv, .dat, .txt, .xyz, .pts, .dxf",
+        "out.docx: “.docx” is not a format Batten knows: use one of .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf",
     );
     folder.refused(
         &["apply", "translate-end", &file, "out.batten"],

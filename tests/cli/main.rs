@@ -58,7 +58,7 @@ fn examples_are_listed_and_written() {
     folder.misused(&["example", "arc"], "required");
     folder.refused(
         &["example", "arc", "a.docx"],
-        "a.docx: “.docx” is not a format Batten knows: use one of .batten, .csv, .dat, .txt, .xyz, .pts, .dxf",
+        "a.docx: “.docx” is not a format Batten knows: use one of .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf",
     );
 }
 
@@ -280,7 +280,7 @@ fn what_can_only_be_a_file_is_refused_as_one() {
         &["new.batten", "inspcet"],
         &format!("new.batten: {missing}"),
     );
-    let nameless = "the name has no extension that tells its format: add one of .batten, .csv, .dat, .txt, .xyz, .pts, .gpx";
+    let nameless = "the name has no extension that tells its format: add one of .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .gpx";
     folder.refused(&["inspcet"], &format!("inspcet: {nameless}"));
     folder.refused(&["./convrt"], &format!("./convrt: {nameless}"));
 }
@@ -322,7 +322,7 @@ fn bad_input_is_refused_with_file_and_place() {
         );
         check(
             "a.dxf",
-            "DXF files can be written but not read: the formats that can be read are .batten, .csv, .dat, .txt, .xyz, .pts, .gpx",
+            "DXF files can be written but not read: the formats that can be read are .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .gpx",
         );
         check(
             "gone.csv",

@@ -113,7 +113,7 @@ fn a_pipe_needs_a_format() {
     folder.misused(&["example", "arc", "-"], "--to-format");
     folder.misused(
         &["convert", "-", "out.csv", "--from-format", "dxf"],
-        "possible values: batten, csv, dat, gpx",
+        "possible values: batten, csv, tsv, dat, gpx",
     );
     assert!(!folder.path("-").exists());
 }

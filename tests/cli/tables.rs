@@ -206,6 +206,29 @@ fn columns_are_chosen_wherever_a_table_is_read() {
 }
 
 #[test]
+fn tables_are_told_by_more_extensions() {
+    let rows = "0\t0\n1.5\t2\n3\t1\n";
+    let mut folder = Folder::new().with("a.survey", rows);
+    for file in ["a.tsv", "a.asc", "a.xy"] {
+        folder = folder.with(file, rows);
+        let inspected = folder.inspect(&[file]);
+        assert_eq!(points(&inspected), [[0.0, 0.0], [1.5, 2.0], [3.0, 1.0]]);
+    }
+    folder.done(&["convert", "a.xy", "b.tsv"]);
+    let written = fs::read_to_string(folder.path("b.tsv")).unwrap();
+    assert_eq!(
+        written,
+        "# name=points 1\nx\ty\n0.0\t0.0\n1.5\t2.0\n3.0\t1.0\n"
+    );
+    let output = folder.run(&["inspect", "a.survey"]);
+    let (_, told) = texts(&output);
+    let hint = ".gpx, or name its format with --from-format\n";
+    assert!(told.ends_with(hint), "{told}");
+    let inspected = folder.inspect(&["a.survey", "--from-format", "dat"]);
+    assert_eq!(points(&inspected).len(), 3);
+}
+
+#[test]
 fn a_track_is_read_in_metres() {
     let track = r#"<gpx><trk><name>Bay</name><trkseg>
 <trkpt lat="54" lon="10"/><trkpt lat="54" lon="10.001"/><trkpt lat="54.001" lon="10.001"/>
@@ -217,7 +240,7 @@ fn a_track_is_read_in_metres() {
     folder.done(&["convert", "bay.gpx", "bay.batten"]);
     folder.refused(
         &["convert", "bay.batten", "out.gpx"],
-        "out.gpx: GPX files can be read but not written: the formats that can be written are .batten, .csv, .dat, .txt, .xyz, .pts, .dxf",
+        "out.gpx: GPX files can be read but not written: the formats that can be written are .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf",
     );
 }
 
