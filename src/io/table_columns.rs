@@ -16,7 +16,10 @@ pub(super) const COLUMNS: [&str; 4] = ["x", "y", "z", "weight"];
 pub(super) const WEIGHT: usize = 3;
 
 /// The names of coordinates x, y and, in space, z, in the order of preference.
-const COORDINATES: [[&[&str]; 3]; 1] = [[&["x"], &["y"], &["z"]]];
+const COORDINATES: [[&[&str]; 3]; 2] = [
+    [&["x"], &["y"], &["z"]],
+    [&["easting"], &["northing"], &["elevation", "z"]],
+];
 
 /// The names of longitude and latitude, in degrees.
 const POSITION: [&[&str]; 2] = [&["lon", "long", "lng", "longitude"], &["lat", "latitude"]];

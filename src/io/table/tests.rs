@@ -686,3 +686,17 @@ fn latitude_and_longitude_are_read_as_those_of_a_track() {
         "{mixed}"
     );
 }
+
+#[test]
+fn easting_and_northing_are_x_and_y() {
+    let text = "id,Northing (m),Easting (m),Elevation,remark\n7,2,1,3,a\n9,5,4,6,b\n";
+    check_points(text, "points 1", &[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+    assert_eq!(
+        TABLE.read(text.as_bytes()).unwrap().unit,
+        Some(LengthUnit::Metre)
+    );
+    assert_eq!(
+        points_of(b"easting northing depth\n1 2 3\n4 5 6\n"),
+        [[1.0, 2.0], [4.0, 5.0]]
+    );
+}
