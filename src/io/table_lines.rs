@@ -13,6 +13,9 @@ const SEPARATORS: [char; 4] = [';', '\t', ',', ' '];
 /// What comments begin with, beside `//`; `#` begins the line above a curve's table too.
 pub(super) const COMMENT_MARKS: [char; 3] = ['#', '%', '!'];
 
+/// What stands where a number is missing, beside nothing.
+const MISSING: [&str; 8] = ["nan", "-nan", "inf", "-inf", "na", "n/a", "#n/a", "null"];
+
 /// How many rows of numbers decide on the separator. More would read large files twice.
 const DECIDING: usize = 256;
 
@@ -67,6 +70,13 @@ impl<'a> Fields<'a> {
     /// How many of them are numbers.
     pub(super) fn numbers(&self) -> usize {
         self.values.iter().filter(|it| is_number(it)).count()
+    }
+
+    /// Whether they are a row in which a number is missing, such as `0.5, NaN`.
+    pub(super) fn lack_a_number(&self) -> bool {
+        let is_missing = |value: &Cow<str>| MISSING.contains(&value.to_lowercase().as_str());
+        let (missing, others): (Vec<_>, Vec<_>) = self.values.iter().partition(|it| is_missing(it));
+        self.values.len() >= 2 && !missing.is_empty() && others.into_iter().all(|it| is_number(it))
     }
 
     /// Whether they can be a row of numbers: at least two, and no field that is two numbers.
@@ -158,10 +168,15 @@ fn content(line: &str, separator: char) -> LineContent<'_> {
     }
 }
 
-/// Whether a line begins with a mark of comments, in quotation marks or not.
+/// Whether a line begins with a mark of comments, in quotation marks or not, or tells a spreadsheet the
+/// separator, as `sep=;` does.
 fn is_commented(line: &str) -> bool {
     let begun = line.trim_start_matches(['"', ' ', '\t']);
-    begun.starts_with(COMMENT_MARKS) || begun.starts_with("//")
+    let tells_separator = || {
+        let told = begun.strip_prefix("sep=").or(begun.strip_prefix("SEP="));
+        told.is_some_and(|told| told.trim_end_matches(['"', ' ']).chars().count() == 1)
+    };
+    begun.starts_with(COMMENT_MARKS) || begun.starts_with("//") || tells_separator()
 }
 
 /// The text of a header: a spreadsheet may have quoted it, or padded it with separators.
@@ -194,8 +209,20 @@ mod tests {
             ("x;y\n", ';'),
             ("# a b\nx,y\n", ','),
             ("x\n", ','),
+            ("sep=;\nx,y\n", ','),
         ] {
             assert_eq!(separator(text), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn a_row_may_lack_a_number() {
+        let lacks = |line| Fields::of(line, ',').lack_a_number();
+        for line in ["nan,nan", "0.5,NaN", "n/a,1", "NULL,-inf,3"] {
+            assert!(lacks(line), "{line}");
+        }
+        for line in ["1,2", "nan", "x,y", "NACA,12", "nan,x", ""] {
+            assert!(!lacks(line), "{line}");
         }
     }
 

@@ -302,7 +302,9 @@ impl<'a> PointReader<'a> {
                 .iter()
                 .all(|it| !it.contains(char::is_alphanumeric))
         };
-        let words = above.filter(|(_, fields)| fields.numbers() == 0 && !is_rule(fields));
+        let words = above.filter(|(_, fields)| {
+            fields.numbers() == 0 && !is_rule(fields) && !fields.lack_a_number()
+        });
         let (line, fields) = words.last()?;
         let names = ColumnNames::of(fields);
         // Words of a title are seldom divided by commas or semicolons.
@@ -416,6 +418,7 @@ impl<'a> PointReader<'a> {
                     lines.push(line.number);
                 }
                 Ok(Found::Text) if layout.names == Some(line.number) => {}
+                Ok(Found::Text) if fields.lack_a_number() => self.skipped.push(line.number),
                 Ok(Found::Text) => match title(line.text) {
                     Some(title) if block.rows.is_empty() && block.title.is_none() => {
                         block.title = Some((line.number, title));

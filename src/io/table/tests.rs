@@ -700,3 +700,21 @@ fn easting_and_northing_are_x_and_y() {
         [[1.0, 2.0], [4.0, 5.0]]
     );
 }
+
+#[test]
+fn a_row_without_a_number_and_a_line_of_a_spreadsheet_are_no_titles() {
+    let expected = [("points 1", &[[1.0, 2.0], [3.0, 5.0]][..])];
+    let skipped = "line 1 was skipped (no point)";
+    check_lists("nan nan\n1 2\n3 5\n", &expected, skipped);
+    check_lists("0.5,NaN\n1,2\n3,5\n", &expected, skipped);
+    check_lists(
+        "x,y\nNaN,NaN\n1,2\n3,5\n",
+        &expected,
+        "line 2 was skipped (no point)",
+    );
+    check_lists(
+        "sep=;\nx;y\n1;2\n3;5\n",
+        &expected,
+        "read with semicolons between columns\nline 1 is taken as a comment",
+    );
+}
