@@ -3,6 +3,11 @@
 use super::error::{Place, Problem, ReadError};
 use super::reading::Remark;
 
+/// The units that may stand behind numbers. Other words are labels, such as 12 b.
+const UNITS: [&str; 13] = [
+    "mm", "cm", "dm", "m", "km", "µm", "um", "in", "ft", "yd", "px", "deg", "°",
+];
+
 /// The decimal mark of a table, as far as the numbers read so far tell it.
 #[derive(Default)]
 pub(super) struct Decimals {
@@ -100,6 +105,15 @@ impl Decimals {
 /// Whether a text is a finite number, with either decimal mark.
 pub(super) fn is_number(text: &str) -> bool {
     Decimals::default().number(text, "x", 0).is_ok()
+}
+
+/// Take a number with a unit behind it, such as `12.3 mm`, apart.
+pub(super) fn measured(text: &str) -> Option<(&str, &str)> {
+    let text = text.trim();
+    let last = text.rfind(|it: char| it.is_ascii_digit() || it == '.' || it == ',')?;
+    let (number, unit) = text.split_at(last + 1);
+    let unit = unit.trim_start();
+    (UNITS.contains(&unit) && is_number(number)).then_some((number, unit))
 }
 
 /// Whether a number is written with a digit other than 0 before its exponent.

@@ -83,6 +83,8 @@ pub enum Remark {
     },
     /// Columns of a table with names of their own that are taken for x and y.
     Columns(Vec<TableColumn>),
+    /// A unit that stands behind the numbers of a table.
+    Measured(String),
     /// A word in the place of a unit in the name of a column.
     UnknownUnit(String),
     /// Points that are an airfoil in one of two orders.
@@ -406,6 +408,11 @@ impl fmt::Display for Remark {
                     columns.join(" and ")
                 )
             }
+            Self::Measured(unit) => write!(
+                formatter,
+                "numbers are read with the unit {} behind them",
+                quoted(unit)
+            ),
             Self::UnknownUnit(unit) => write!(
                 formatter,
                 "the unit {} is not known: mm, cm, m and in are",

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use csv::{ReaderBuilder, StringRecord};
 
-use super::decimals::is_number;
+use super::decimals::{is_number, measured};
 use super::table_header::begins_table;
 
 /// What may stand between fields, in the order of preference; a space stands for any run of blanks.
@@ -67,9 +67,10 @@ impl<'a> Fields<'a> {
         Self { values, width }
     }
 
-    /// How many of them are numbers.
+    /// How many of them are numbers, with a unit behind them or without.
     pub(super) fn numbers(&self) -> usize {
-        self.values.iter().filter(|it| is_number(it)).count()
+        let are_numbers = |text: &&Cow<str>| is_number(text) || measured(text).is_some();
+        self.values.iter().filter(are_numbers).count()
     }
 
     /// Whether they are a row in which a number is missing, such as `0.5, NaN`.
@@ -119,12 +120,28 @@ fn unquoted<'a>(line: &'a str, separator: char) -> Vec<Cow<'a, str>> {
     }
 }
 
+/// The inside of a point in brackets, such as `(1.0, 2.0)` or `[1.0, 2.0],`; any other line as it is.
+fn unbracketed(line: &str) -> &str {
+    let (opening, closing) = (['(', '[', '{'], [')', ']', '}']);
+    let point = line.trim().trim_end_matches([',', ';', ' ', '\t']);
+    if !point.starts_with(opening) || !point.ends_with(closing) {
+        return line;
+    }
+    let inside = point.trim_start_matches(opening).trim_end_matches(closing);
+    let words = inside.split([',', ';', ' ', '\t']);
+    let mut words = words.filter(|word| !word.is_empty());
+    match words.clone().count() >= 2 && words.all(is_number) {
+        true => inside,
+        false => line,
+    }
+}
+
 /// Find what stands between the fields: the separator that splits most rows into numbers. Where there
 /// are none, the first line of text tells it.
 pub(super) fn separator(text: &str) -> char {
     let lines = || text.lines().filter(|line| !is_commented(line));
     let mut counts = [0; SEPARATORS.len()];
-    for line in lines() {
+    for line in lines().map(unbracketed) {
         for (count, separator) in counts.iter_mut().zip(SEPARATORS) {
             *count += usize::from(Fields::of(line, separator).are_split());
         }
@@ -161,7 +178,7 @@ fn content(line: &str, separator: char) -> LineContent<'_> {
             true => LineContent::Header(header(line, separator)),
         };
     }
-    let fields = Fields::of(line, separator);
+    let fields = Fields::of(unbracketed(line), separator);
     match fields.values.is_empty() {
         true => LineContent::Blank,
         false => LineContent::Fields(fields),
@@ -210,6 +227,10 @@ mod tests {
             ("# a b\nx,y\n", ','),
             ("x\n", ','),
             ("sep=;\nx,y\n", ','),
+            ("(1, 2)\n(3, 4)\n", ','),
+            ("[1,5; 2,5],\n[3; 4]\n", ';'),
+            ("(a) 1 2\n(b) 3 4\n", ' '),
+            ("1.5 mm, 2 mm\n2.5 mm, 3 mm\n", ','),
         ] {
             assert_eq!(separator(text), expected, "{text:?}");
         }

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer};
-use super::decimals::{Decimals, is_number};
+use super::decimals::{Decimals, is_number, measured};
 use super::error::{Place, Problem, ReadError};
 use super::reading::{Reading, Remark, Remarks};
 use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, Coordinates, WEIGHT, columns};
@@ -84,6 +84,8 @@ struct Layout {
     names: Option<usize>,
     /// The columns of the coordinates.
     coordinates: Coordinates,
+    /// The unit behind the numbers of each of these columns.
+    units: Vec<Option<String>>,
     /// The column of weights.
     weight: Option<usize>,
 }
@@ -270,19 +272,21 @@ impl<'a> PointReader<'a> {
                 named_so.map_or_else(numeric, Ok)
             }
         };
-        let coordinates = coordinates.map_err(|it| place.problem(it))?;
-        if let Some((line, names)) = &names {
-            let taken = match coordinates.are_on_earth {
-                true => self.take_unit(LengthUnit::Metre),
-                false => self.take_units(names, &coordinates.places),
-            };
-            taken.map_err(|problem| Place::line(*line).problem(problem))?;
-        }
+        let coordinates = coordinates.map_err(|it| place.clone().problem(it))?;
+        let places = coordinates.places.iter();
+        let units = places.map(|place| common_unit(&rows, *place));
+        let units: Vec<Option<String>> = units.collect();
+        let taken = match coordinates.are_on_earth {
+            true => self.take_unit(LengthUnit::Metre),
+            false => self.take_units(named, &coordinates.places, &units),
+        };
+        taken.map_err(|it| place.problem(it))?;
         Ok(Some(Layout {
             count,
             named: names.as_ref().map_or(0, |(_, names)| names.count()),
             names: names.map(|(line, _)| line),
             coordinates,
+            units,
             weight: weight.flatten(),
         }))
     }
@@ -340,7 +344,7 @@ impl<'a> PointReader<'a> {
             let numbers = rows
                 .iter()
                 .filter(|(_, fields)| is_number(&fields.values[*place]));
-            2 * numbers.count() > rows.len()
+            2 * numbers.count() > rows.len() || common_unit(rows, *place).is_some()
         };
         let counts = |place: &usize| {
             let is_named = names
@@ -365,23 +369,34 @@ impl<'a> PointReader<'a> {
         }
     }
 
-    /// Take the units of the columns.
+    /// Take the units of columns, from their names and from behind their numbers.
     ///
     /// # Errors
     /// [`Problem::MixedUnits`].
-    fn take_units(&mut self, names: &ColumnNames, places: &[usize]) -> Result<(), Problem> {
-        for text in places.iter().filter_map(|place| names.unit(*place)) {
+    fn take_units(
+        &mut self,
+        names: Option<&ColumnNames>,
+        places: &[usize],
+        units: &[Option<String>],
+    ) -> Result<(), Problem> {
+        let named = places.iter().filter_map(|place| names?.unit(*place));
+        let behind = units.iter().flatten().map(String::as_str);
+        if let Some(unit) = behind.clone().next() {
+            self.remark_once(Remark::Measured(unit.to_owned()));
+        }
+        for text in named.chain(behind) {
             match LengthUnit::of_symbol(text) {
                 Some(unit) => self.take_unit(unit)?,
-                None => {
-                    let remark = Remark::UnknownUnit(text.to_owned());
-                    if !self.remarks.contains(&remark) {
-                        self.remarks.add(remark);
-                    }
-                }
+                None => self.remark_once(Remark::UnknownUnit(text.to_owned())),
             }
         }
         Ok(())
+    }
+
+    fn remark_once(&mut self, remark: Remark) {
+        if !self.remarks.contains(&remark) {
+            self.remarks.add(remark);
+        }
     }
 
     /// Take a unit, which must be the one that is known already.
@@ -554,7 +569,14 @@ impl Layout {
         }
         let text = |place: &usize| fields.values.get(*place).map_or("", |text| text.as_ref());
         let places = &self.coordinates.places;
-        let texts: Vec<&str> = places.iter().chain(&self.weight).map(text).collect();
+        let number = |(place, unit): (&usize, &Option<String>)| match (unit, text(place)) {
+            (None, text) => text,
+            (Some(unit), text) => measured(text)
+                .filter(|(_, behind)| behind == unit)
+                .map_or("", |(number, _)| number),
+        };
+        let coordinates = places.iter().zip(&self.units).map(number);
+        let texts: Vec<&str> = coordinates.chain(self.weight.iter().map(text)).collect();
         if let Some(text) = texts.iter().find(|text| is_too_large(text)) {
             return Ok(Found::TooLarge((*text).to_owned()));
         }
@@ -579,6 +601,17 @@ impl Layout {
             weight: weight.transpose()?,
         }))
     }
+}
+
+/// The unit behind all numbers of a column; `None` if there is none, or not the same everywhere.
+fn common_unit(rows: &[(usize, &Fields)], place: usize) -> Option<String> {
+    let unit = |(_, fields): &(usize, &Fields)| {
+        let (_, unit) = measured(fields.values.get(place)?)?;
+        Some(unit.to_owned())
+    };
+    let first = unit(rows.first()?)?;
+    let is_common = rows.iter().all(|row| unit(row).as_ref() == Some(&first));
+    is_common.then_some(first)
 }
 
 /// Whether a column's name is one of a row's number.

@@ -718,3 +718,40 @@ fn a_row_without_a_number_and_a_line_of_a_spreadsheet_are_no_titles() {
         "read with semicolons between columns\nline 1 is taken as a comment",
     );
 }
+
+#[test]
+fn points_in_brackets_are_read() {
+    let expected = [[0.5, -1.0], [1.25, 2.0], [2.0, 3.0]];
+    for text in [
+        "(0.5, -1.0)\n(1.25, 2.0)\n(2.0, 3.0)\n",
+        "[\n  [0.5, -1.0],\n  [1.25, 2.0],\n  [2.0, 3.0]\n]\n",
+        "[(0.5, -1.0),\n(1.25, 2.0),\n(2.0, 3.0)]\n",
+        "{0,5; -1,0};\n{1,25; 2,0};\n{2,0; 3,0};\n",
+        "0.5, -1.0,\n1.25, 2.0,\n2.0, 3.0,\n",
+    ] {
+        assert_eq!(points_of(text.as_bytes()), expected, "{text}");
+    }
+}
+
+#[test]
+fn units_behind_numbers_are_read_where_all_agree() {
+    let told = "numbers are read with the unit “mm” behind them";
+    let expected = [("points 1", &[[12.5, 3.0], [13.0, 4.0]][..])];
+    check_lists("12.5 mm,3 mm\n13 mm,4 mm\n", &expected, told);
+    check_lists("x,y\n12.5mm,3mm\n13mm,4mm\n", &expected, told);
+    let reading = read(b"a,b\n12.5 mm,3\n13 mm,4\n").unwrap();
+    assert_eq!(reading.unit, Some(LengthUnit::Millimetre));
+    check_lists(
+        "12.5 ft;3 ft\n13 ft;4 ft\n",
+        &expected,
+        "read with semicolons between columns\nnumbers are read with the unit “ft” behind them\nthe unit “ft” is not known: mm, cm, m and in are",
+    );
+    // Where units differ, a cell is no number.
+    let mixed = "x,y\n12.5,3\n13,4\n14 mm,5\n";
+    check_lists(mixed, &expected, "line 4 was skipped (no point)");
+    let error = read(b"1 mm,2 in\n2 mm,3 in\n").unwrap_err().to_string();
+    assert!(
+        error.contains("the columns are in millimetres and in inches"),
+        "{error}"
+    );
+}
