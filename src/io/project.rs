@@ -14,7 +14,7 @@
 //! from 0. In a file of version 1 these keys are unknown ones.
 
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, IgnoredAny};
 use serde_json::Value;
 use serde_path_to_error::{Path, Segment};
 
@@ -52,6 +52,10 @@ pub static PROJECT: Format = Format {
 fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     let text = text(bytes)?;
     if !text.trim_start().starts_with('{') {
+        if text.trim_start().starts_with('[') {
+            // Other JSON that is malformed has a place to tell.
+            parse::<IgnoredAny>(text)?;
+        }
         return Err(Problem::WrongFormat { found: None }.into());
     }
     match parse::<Header>(text) {

@@ -148,7 +148,7 @@ fn check(text: &str, expected: &str) {
 fn files_that_are_no_projects_are_refused() {
     check("", "the file is empty");
     check("\u{feff} \n", "the file is empty");
-    for text in ["[1, 2]", "x,y\n0,1\n", &"[".repeat(1000)] {
+    for text in ["[1, 2]", "x,y\n0,1\n"] {
         let problem = read(text.as_bytes()).unwrap_err().problem;
         assert_eq!(problem, Problem::WrongFormat { found: None }, "{text}");
     }
@@ -687,4 +687,13 @@ fn matches_that_cannot_be_are_refused() {
         let text = MATCHED.replace("MATCH", &matches);
         assert_eq!(read(text.as_bytes()).unwrap_err().to_string(), expected);
     }
+}
+
+#[test]
+fn brackets_without_end_are_told_by_their_place() {
+    let error = |text: &str| PROJECT.read(text.as_bytes()).unwrap_err().to_string();
+    let count = 1_000_000;
+    let expected = format!("line 1, column {count}: EOF while parsing a list");
+    assert_eq!(error(&"[".repeat(count)), expected);
+    assert!(error("[1, 2]").starts_with("this is not a Batten project"));
 }
