@@ -81,7 +81,7 @@ pub fn unit_ui(context: &Context, incoming: LengthUnit) -> Option<Option<LengthU
     })
 }
 
-/// Ask for the columns of x, y and z in a table. Returns the answer once there is one: `None` reads nothing.
+/// Ask for the columns of x, y, z and weights in a table. Returns the answer once there is one: `None` reads nothing.
 pub fn columns_ui(context: &Context, question: &ColumnQuestion) -> Option<Option<ColumnChoice>> {
     let id = Id::unique("columns of a table");
     let answer = widgets::modal(context, "columns", None, |ui| {
@@ -94,22 +94,26 @@ pub fn columns_ui(context: &Context, question: &ColumnQuestion) -> Option<Option
             &format!("{name} does not say which columns are x and y."),
         );
         let mut numbers = question.columns.iter().map(|it| it.number);
-        let offered = [numbers.next(), numbers.next(), None];
+        let offered = [numbers.next(), numbers.next(), None, None];
         let mut picked = ui.data(|data| data.get_temp(id)).unwrap_or(offered);
         let columns = question.columns.iter();
         let columns = columns.map(|column| (Some(column.number), column.to_string()));
         let columns: Vec<(Option<usize>, String)> = columns.collect();
         let none = (None, "none".to_owned());
         let with_none = [vec![none], columns.clone()].concat();
-        let offers = [("x", columns.clone()), ("y", columns), ("z", with_none)];
+        let offers = [
+            ("x", columns.clone()),
+            ("y", columns),
+            ("z", with_none.clone()),
+            ("weights", with_none),
+        ];
         for (axis, (name, all)) in picked.iter_mut().zip(offers) {
             widgets::form_row(ui, name, |ui| {
                 let (other, _) = widgets::drop_down(ui, name, 240.0, axis, all);
                 *axis = other.unwrap_or(*axis);
             });
         }
-        let chosen: Vec<usize> = picked.into_iter().flatten().collect();
-        let choice = ColumnChoice::of_numbers(&chosen);
+        let choice = column_choice(picked);
         ui.data_mut(|data| data.insert_temp(id, picked));
         let is_entered = ui.input(|input| input.key_pressed(Key::Enter));
         let mut answer = None;
@@ -128,9 +132,20 @@ pub fn columns_ui(context: &Context, question: &ColumnQuestion) -> Option<Option
         answer
     });
     if answer.is_some() {
-        context.data_mut(|data| data.remove_temp::<[Option<usize>; 3]>(id));
+        context.data_mut(|data| data.remove_temp::<[Option<usize>; 4]>(id));
     }
     answer
+}
+
+/// The columns of x, y, z and weights by their numbers; `None` if one is missing or there twice.
+fn column_choice([x, y, z, weight]: [Option<usize>; 4]) -> Option<ColumnChoice> {
+    let coordinates: Vec<usize> = [x, y, z].into_iter().flatten().collect();
+    let choice = ColumnChoice::of_numbers(&coordinates)?;
+    match weight {
+        None => Some(choice),
+        Some(weight) if coordinates.contains(&weight) => None,
+        Some(weight) => choice.with_weights(&weight.to_string()).ok(),
+    }
 }
 
 /// Show a dialog's buttons from the right edge on. Enter presses the first.

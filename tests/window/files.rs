@@ -292,6 +292,27 @@ fn columns_that_a_table_does_not_tell_are_chosen() {
     assert_eq!(points(&window), Some((expected.to_vec(), 0)));
 }
 
+#[test]
+fn a_column_of_weights_can_be_chosen() {
+    let mut window = open_window();
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = folder.path().join("scan.csv");
+    std::fs::write(&table, "east;north;up;trust\n1;0;2;0.5\n2;1;4;1\n3;5;5;2\n").expect("the file");
+    drop_file(&mut window, &table);
+    let weigh = |window: &mut Window, column: &str| {
+        click(window, "weights");
+        click(window, column);
+        click(window, "Read");
+    };
+    // A coordinate is no weight: the question stays.
+    weigh(&mut window, "2 “north”");
+    window.get_by_label("Choose the columns");
+    weigh(&mut window, "4 “trust”");
+    let document = window.state().editor().document();
+    let (_, list) = document.references().next().expect("the points");
+    assert_eq!(list.weights(), Some(&[0.5, 1.0, 2.0][..]));
+}
+
 #[derive(Debug)]
 struct Dropped(PathBuf);
 
