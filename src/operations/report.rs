@@ -15,6 +15,9 @@ use crate::document::Document;
 use crate::geometry::Progress;
 use crate::geometry::approximation::LevelComparison;
 
+/// Residuals below this share of the size of the curve are rounding, and no reason why something is not reached.
+const ROUNDING: f64 = 1e-12;
+
 /// Hold what an operation did: one schema for all of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -28,6 +31,8 @@ pub struct Report {
     pub useful: bool,
     /// What is left of a target or tolerance, as a length.
     pub residual: Option<f64>,
+    /// What of this is only rounding.
+    pub rounding: f64,
     /// How far the curve moves.
     pub deviation: Deviation,
     /// The largest move of a vertex; `None` where vertices have no counterparts.
@@ -100,6 +105,9 @@ impl Report {
             reached: outcome.reached,
             useful: outcome.is_useful(),
             residual: outcome.residual,
+            rounding: input
+                .polygon()
+                .map_or(0.0, |polygon| ROUNDING * polygon.size()),
             deviation: outcome.deviation,
             largest_move: largest_move(input, outcome),
             figures: outcome.figures.clone(),

@@ -36,7 +36,7 @@ impl Report {
         if let Some(level) = self.differing_level() {
             parts.push(format!("another shape: {} differs", level.name()));
         }
-        if let Some(residual) = self.residual {
+        if let Some(residual) = self.residual.filter(|it| *it > self.rounding) {
             parts.push(format!("{} is left", significant(residual, 4)));
         }
         if let Some(features) = self.features.as_ref().filter(|_| self.useful) {

@@ -437,6 +437,10 @@ fn what_is_not_reached_is_reported_and_nothing_is_written() {
     );
     let found: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(found["reached"], false);
+    assert!(
+        err.contains(" is left. "),
+        "the miss is more than rounding: {err}"
+    );
     assert!(found["residual"].as_f64().unwrap() > 1e-3);
     assert!(found["passes"].as_u64().unwrap() > 0);
     assert_eq!(found["features_before"], found["features_after"]);
