@@ -148,11 +148,13 @@ impl Application {
     }
 
     /// Whether the arguments alone are at fault, whatever a file holds: nothing was read, two parameters exclude
-    /// each other, or a direction has none.
+    /// each other, a direction has none, or the steps cannot do what is asked.
     fn is_misused(&self, error: &OperationError) -> bool {
         let is_of_arguments = matches!(
             error,
-            OperationError::Exclude { .. } | OperationError::NoDirection { .. }
+            OperationError::Exclude { .. }
+                | OperationError::NoDirection { .. }
+                | OperationError::NotBySteps { .. }
         );
         is_of_arguments || (self.source.is_none() && *error != OperationError::Cancelled)
     }

@@ -30,7 +30,7 @@ const ROUNDING_LEAVES_MORE: &str = "Rounding leaves more than the tolerance: all
 const METHOD: Parameter = Parameter {
     name: "method",
     label: "Method",
-    help: "Move all vertices, as smoothly as possible, or repeat steps 2 to 6 on the terminal vertices",
+    help: "Both ends at once, or steps 2 to 6 repeated, which meet points and directions only",
     kind: Kind::Choice {
         options: &[
             Choice::new("joint", "Both ends at once"),
@@ -106,7 +106,7 @@ macro_rules! end_parameters {
                 help: concat!(
                     "The curvature at the ",
                     $name,
-                    "; of a planar curve positive where it turns left"
+                    ", positive where a planar curve turns left; by the joint method only"
                 ),
                 kind: Kind::optional_number(ANY, |input| {
                     kept(input, $end, |it| it.curvature.is_some(), "free")
@@ -118,7 +118,7 @@ macro_rules! end_parameters {
                 help: concat!(
                     "The slope of the curvature at the ",
                     $name,
-                    ", by arc length"
+                    ", by arc length; by the joint method only"
                 ),
                 kind: Kind::optional_number(ANY, |input| {
                     kept(input, $end, |it| it.slope.is_some(), "free")
@@ -130,7 +130,7 @@ macro_rules! end_parameters {
                 help: concat!(
                     "The normal of the osculating plane at the ",
                     $name,
-                    ", in space"
+                    ", in space; by the joint method only"
                 ),
                 kind: Kind::vector(true, |input| {
                     kept(input, $end, |it| it.normal.is_some(), "free")
@@ -202,10 +202,18 @@ struct Correction {
 }
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    let both = values.choice(&METHOD, &[true, false]);
+    if let (false, Some(label)) = (
+        both,
+        [&START, &FINISH]
+            .into_iter()
+            .find_map(|it| it.bends(values)),
+    ) {
+        return Err(OperationError::NotBySteps { label });
+    }
     let (id, curve) = input.curve()?;
     let curve = &with_targets(input, id, curve, values)?;
     let tolerance = values.real(&TOLERANCE);
-    let both = values.choice(&METHOD, &[true, false]);
     let requirements = requirements(curve, values, both, tolerance)?;
     let is_met = |polygon: &FloatPolygon| {
         Check::of(&requirements, polygon, progress).is_some_and(|check| check.holds)
@@ -307,6 +315,13 @@ fn with_targets(
 }
 
 impl EndParameters {
+    /// The label of a value that the steps cannot bring.
+    fn bends(&self, values: &Values) -> Option<&'static str> {
+        let bending = [&self.curvature, &self.slope, &self.normal].into_iter();
+        let mut given = bending.filter(|parameter| !values.list(parameter).is_empty());
+        given.next().map(|parameter| parameter.label)
+    }
+
     /// Refuse directions of length 0.
     fn check_directions(&self, values: &Values) -> Result<(), OperationError> {
         let is_none = |parameter: &&Parameter| {

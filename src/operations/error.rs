@@ -95,6 +95,14 @@ pub enum OperationError {
         /// The parameter, as it is shown.
         label: &'static str,
     },
+    /// The steps of the end fit meet points and directions only.
+    #[error(
+        "{label}: the steps meet points and directions only: use “Both ends at once” (--method joint)"
+    )]
+    NotBySteps {
+        /// The parameter that asks for more, as it is shown.
+        label: &'static str,
+    },
     /// There is no lower degree.
     #[error("the degree is 1 already, the lowest that there is")]
     LowestDegree,

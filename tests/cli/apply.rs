@@ -983,6 +983,56 @@ fn whole_numbers_take_arithmetic() {
     let degree = |text: &'static str| {
         [
             "apply",
+#[test]
+fn steps_refuse_what_bends_an_end() {
+    let (folder, file) = with_example("arc");
+    for (name, label) in [
+        ("end-curvature", "End curvature"),
+        ("start-slope", "Start slope"),
+    ] {
+        let option = format!("--{name}=0.1");
+        let steps = [
+            "apply",
+            "correct-ends",
+            &file,
+            "out.batten",
+            "--method",
+            "steps",
+            &option,
+        ];
+        let expected = format!(
+            "{label}: the steps meet points and directions only: use “Both ends at once” (--method joint)"
+        );
+        folder.misused(&steps, &expected);
+    }
+    let (help, _) = folder.done(&["apply", "correct-ends", "--help"]);
+    assert_eq!(
+        help.matches("by the joint method only").count(),
+        6,
+        "{help}"
+    );
+}
+
+#[test]
+fn rounding_is_no_reason() {
+    let (folder, file) = with_example("arc");
+    let arguments = [
+        "apply",
+        "correct-ends",
+        &file,
+        "out.batten",
+        "--tolerance",
+        "1e-300",
+        "--end",
+        "0,0",
+    ];
+    let (_, err) = texts(&folder.run(&arguments));
+    assert!(
+        err.contains("Rounding leaves more") && !err.contains("is left"),
+        "{err}"
+    );
+}
+
             "approximate",
             "circle",
             "out.batten",
