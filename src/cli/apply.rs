@@ -205,7 +205,7 @@ impl Application {
                     }
                     ([Some(first), None], [_, _]) => choose(Some(named(first)?), &[]),
                     ([None, None], [(first, _), _]) => choose(Some(*first), &[]),
-                    (_, []) => bail!("there is no curve"),
+                    (_, []) => bail!(no_curve(&document)),
                     _ => bail!("choose two with --curve and --with: {}", listed(&items)),
                 }
             }
@@ -220,7 +220,7 @@ impl Application {
             (_, []) => bail!(match inputs {
                 Inputs::OneOrNone => "there is neither a curve nor a reference",
                 Inputs::Points => "there is neither a curve nor a list of points",
-                _ => "there is no curve",
+                _ => no_curve(document),
             }),
             (Some(name), _) => found(&items, inputs, name),
             (None, [(only, _)]) => Ok(*only),
@@ -304,6 +304,15 @@ impl Application {
         let outcome = operation.run(input, &values, &progress.part(0.0, RUN))?;
         let report = Report::of(operation, input, &outcome, &progress.part(RUN, 1.0));
         Ok((outcome, report.ok_or(OperationError::Cancelled)?))
+    }
+}
+
+/// Say that there is no curve, and how to get one of points.
+fn no_curve(document: &Document) -> &'static str {
+    let mut references = document.references();
+    match references.any(|(_, reference)| reference.points().is_some()) {
+        true => "there is no curve, only points: make a curve of them with batten apply fit",
+        false => "there is no curve",
     }
 }
 

@@ -117,7 +117,7 @@ enum Command {
         #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::writable()))]
         to_format: Option<&'static Format>,
         /// The number of points, both ends of the curve among them
-        #[arg(long, value_name = "N", value_parser = count, required_unless_present = "tolerance")]
+        #[arg(long, value_name = "N", value_parser = count)]
         count: Option<usize>,
         /// As few points as keep the polyline through them within this distance of the curve
         #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with_all = ["count", "spacing"])]
@@ -258,9 +258,13 @@ impl Arguments {
             }) => Task::Points {
                 source: source("points", input, from_format, columns)?,
                 destination: destination("points", out, to_format)?,
-                density: match tolerance {
-                    Some(tolerance) => Density::Tolerance(tolerance),
-                    None => Density::Count(count.unwrap_or_default(), spacing),
+                density: match (tolerance, count) {
+                    (Some(tolerance), _) => Density::Tolerance(tolerance),
+                    (None, Some(count)) => Density::Count(count, spacing),
+                    (None, None) => {
+                        let needed = "say how many points: --count N, or --tolerance T for as few as keep the polyline that near";
+                        return Err(missing("points", needed));
+                    }
                 },
                 curve,
             },

@@ -11,6 +11,7 @@ use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use crate::geometry::{
     ParametricCurve, Spacing, counted, polyline_deviation, polyline_within, rounded_up,
 };
+use crate::io::WriteError;
 use crate::operations::Inputs;
 
 /// How many points are placed.
@@ -56,6 +57,12 @@ pub(super) fn run(
     let reference = Reference::new(title, ReferenceCurve::of(ReferenceForm::Points(list))?);
     let points = Document::default().with_references([reference]);
     let export = format.write(&points.with_unit(document.unit()), None);
+    let export = export.map_err(|error| match error {
+        WriteError::NoCurves { format } => {
+            anyhow!("{format} files hold curves, no tables of points: use .csv or .dat")
+        }
+        error => error.into(),
+    });
     let export = export.with_context(|| destination.name())?;
     destination.write(export, &Messages::Printed)?;
     output::message(&format!(

@@ -310,7 +310,8 @@ fn the_curve_must_be_told_where_there_are_several() {
     let names = ["hull", "deck", "deck"];
     let folder = Folder::new()
         .with("three.batten", project(json!(names.map(curve))))
-        .with("none.batten", project(json!([])));
+        .with("none.batten", project(json!([])))
+        .with("scan.dat", "0 0\n1 2\n3 1\n");
     let refused = |file: &str, more: &[&str], expected: &str| {
         let arguments = [&["apply", "reverse", file, "out.batten"], more].concat();
         folder.refused(&arguments, &format!("{file}: {expected}"));
@@ -332,6 +333,11 @@ fn the_curve_must_be_told_where_there_are_several() {
         "there are 2 curves “deck”: give them different names first",
     );
     refused("none.batten", &[], "there is no curve");
+    refused(
+        "scan.dat",
+        &[],
+        "there is no curve, only points: make a curve of them with batten apply fit",
+    );
     folder.done(&[
         "apply",
         "reverse",
@@ -432,15 +438,15 @@ fn what_is_not_reached_is_reported_and_nothing_is_written() {
     let (out, err) = texts(&output);
     assert_eq!(output.status.code(), Some(1), "{err}");
     assert!(
+        err.contains(" is left. "),
+        "the miss is more than rounding: {err}"
+    );
+    assert!(
         err.starts_with("batten: Correct ends: not reached, nothing is changed; "),
         "{err}"
     );
     let found: Value = serde_json::from_str(&out).unwrap();
     assert_eq!(found["reached"], false);
-    assert!(
-        err.contains(" is left. "),
-        "the miss is more than rounding: {err}"
-    );
     assert!(found["residual"].as_f64().unwrap() > 1e-3);
     assert!(found["passes"].as_u64().unwrap() > 0);
     assert_eq!(found["features_before"], found["features_after"]);
@@ -978,12 +984,6 @@ fn a_time_limit_is_a_day_at_most_and_told_with_few_digits() {
 }
 
 #[test]
-fn whole_numbers_take_arithmetic() {
-    let folder = Folder::new();
-    let degree = |text: &'static str| {
-        [
-            "apply",
-#[test]
 fn steps_refuse_what_bends_an_end() {
     let (folder, file) = with_example("arc");
     for (name, label) in [
@@ -1033,6 +1033,12 @@ fn rounding_is_no_reason() {
     );
 }
 
+#[test]
+fn whole_numbers_take_arithmetic() {
+    let folder = Folder::new();
+    let degree = |text: &'static str| {
+        [
+            "apply",
             "approximate",
             "circle",
             "out.batten",

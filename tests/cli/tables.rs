@@ -326,7 +326,11 @@ fn points_need_a_number_or_a_tolerance_and_one_curve() {
     let folder = Folder::new().with("two.batten", two);
     folder.done(&["example", "arc", "arc.batten"]);
     let points = |more: &[&'static str]| [&["points", "two.batten", "out.dat"], more].concat();
-    folder.misused(&points(&[]), "--count <N>");
+    folder.misused(&points(&[]), "--count N, or --tolerance T");
+    folder.refused(
+        &["points", "arc.batten", "out.dxf", "--count", "9"],
+        "out.dxf: DXF files hold curves, no tables of points: use .csv or .dat",
+    );
     folder.misused(
         &points(&["--count", "1"]),
         "a whole number from 2 to 1000000",
