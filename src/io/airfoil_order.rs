@@ -10,6 +10,18 @@ use glam::DVec3;
 /// The share of a section's size within which points count as one end of it.
 const NEAR: f64 = 0.1;
 
+/// The greatest thickness of a section as a share of its chord, and the greatest gap at its trailing edge:
+/// of 2173 sections of a public collection two are thicker, and none is more open.
+const THICKEST: f64 = 0.605;
+const OPENEST: f64 = 0.25;
+
+/// The greatest turn, in degrees, at a point of the body: the sharpest of that collection is 20°. Outlines of other
+/// things have corners.
+const SHARPEST: f64 = 30.0;
+
+/// The share of the chord at either edge that does not belong to the body.
+const EDGE: f64 = 0.15;
+
 /// The largest share of steps of one side that may go back along the chord, as at a blunt leading edge.
 const STEPS_BACK: f64 = 0.1;
 
@@ -71,6 +83,12 @@ pub(super) fn lednicer(points: &[DVec3], breaks: &[usize]) -> Option<Sides> {
     Some(Sides { split, are_counted })
 }
 
+/// Whether a side runs from its least x to its greatest.
+fn runs_on(side: &[DVec3]) -> bool {
+    let back = side.windows(2).filter(|pair| pair[1].x < pair[0].x);
+    back.count() as f64 <= STEPS_BACK * side.len() as f64
+}
+
 /// Bring two sides that begin at the leading edge into the order around the section; the leading edge
 /// stands there once.
 pub(super) fn around<T: Copy>(rows: &[T], split: usize, is_same: impl Fn(T, T) -> bool) -> Vec<T> {
@@ -82,7 +100,7 @@ pub(super) fn around<T: Copy>(rows: &[T], split: usize, is_same: impl Fn(T, T) -
 }
 
 /// Whether points run around a section: from its trailing edge, where x is greatest, to the leading edge
-/// and back, the upper side first, and it is not as thick as it is long.
+/// and back, the upper side first. It is thin, nearly closed, and has no corner between the edges.
 pub(super) fn is_selig(points: &[DVec3]) -> bool {
     let size = extent(points);
     let (Some(first), Some(last)) = (points.first(), points.last()) else {
@@ -98,20 +116,22 @@ pub(super) fn is_selig(points: &[DVec3]) -> bool {
     let order = |a: &usize, b: &usize| points[*a].x.total_cmp(&points[*b].x);
     let nose = (0..points.len()).min_by(order).unwrap_or_default();
     let (upper, lower) = (&points[..=nose], &points[nose..]);
-    let goes_back = |side: &[DVec3], sign: f64| {
-        let back = side
-            .windows(2)
-            .filter(|pair| sign * (pair[1].x - pair[0].x) < 0.0);
-        back.count() as f64 > STEPS_BACK * side.len() as f64
-    };
+    let forward: Vec<DVec3> = upper.iter().rev().copied().collect();
     let mean = |side: &[DVec3]| side.iter().map(|it| it.y).sum::<f64>() / side.len() as f64;
+    let body = (greatest - (1.0 - EDGE) * size.x)..(greatest - EDGE * size.x);
+    let is_corner = |three: &[DVec3]| {
+        let turn = (three[1] - three[0]).angle_between(three[2] - three[1]);
+        body.contains(&three[1].x) && turn > SHARPEST.to_radians()
+    };
     ends && size.z == 0.0
-        && size.y < size.x
+        && size.y <= THICKEST * size.x
+        && first.distance(*last) <= OPENEST * size.x
         && upper.len() > 2
         && lower.len() > 2
-        && !goes_back(upper, -1.0)
-        && !goes_back(lower, 1.0)
+        && runs_on(&forward)
+        && runs_on(lower)
         && mean(upper) > mean(lower)
+        && !points.windows(3).any(is_corner)
 }
 
 /// The size of the box around points.
@@ -174,6 +194,18 @@ mod tests {
         reversed.reverse();
         assert!(!is_selig(&points(&reversed)));
         assert!(!is_selig(&points(&section[..4])));
+        // Thick, open and with a corner: an outline of something else.
+        let changed = |change: fn(&mut [(f64, f64); 7])| {
+            let mut outline = section;
+            change(&mut outline);
+            is_selig(&points(&outline))
+        };
+        assert!(changed(|_| {}));
+        assert!(!changed(|it| it
+            .iter_mut()
+            .for_each(|point| point.1 *= 5.0)));
+        assert!(!changed(|it| it[0].1 = 0.3));
+        assert!(!changed(|it| it[5].1 = 0.3));
         assert!(!is_selig(&points(&[(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)])));
         assert!(!is_selig(&[]));
     }
