@@ -1,7 +1,8 @@
 //! The two orders in which airfoil files list the points of a section.
 //!
 //! Selig: from the trailing edge over the upper side to the leading edge, then over the lower side back.
-//! Lednicer: a line with the number of points of either side, then each from the leading edge on.
+//! Lednicer: a line with the number of points of either side, then each from the leading edge on. The line may be
+//! left out.
 
 use std::fmt;
 
@@ -22,6 +23,9 @@ const SHARPEST: f64 = 30.0;
 /// The share of the chord at either edge that does not belong to the body.
 const EDGE: f64 = 0.15;
 
+/// How near the chord of sides without counts is to 0 to 1, or to 0 to 100, where they are believed.
+const NORMAL: f64 = 0.02;
+
 /// The largest share of steps of one side that may go back along the chord, as at a blunt leading edge.
 const STEPS_BACK: f64 = 0.1;
 
@@ -32,13 +36,15 @@ pub enum AirfoilOrder {
     Selig,
     /// Both sides from the leading edge, below a line with their counts.
     Lednicer,
+    /// The same without the line.
+    Uncounted,
 }
 
 impl fmt::Display for AirfoilOrder {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
             Self::Selig => "Selig",
-            Self::Lednicer => "Lednicer",
+            Self::Lednicer | Self::Uncounted => "Lednicer",
         })
     }
 }
@@ -83,10 +89,66 @@ pub(super) fn lednicer(points: &[DVec3], breaks: &[usize]) -> Option<Sides> {
     Some(Sides { split, are_counted })
 }
 
+/// The two sides of a section below no line with their counts.
+#[derive(Debug, PartialEq)]
+pub(super) struct UncountedSides {
+    /// Where the second side begins.
+    pub(super) split: usize,
+    /// Whether the second side is the upper one.
+    pub(super) is_upper_second: bool,
+    /// Whether they can be nothing else: lines of a hull look alike.
+    pub(super) is_certain: bool,
+}
+
+/// Find the sides of a section that both run from its leading edge: a blank line divides them, or the leading edge
+/// begins both. `breaks` are as for [`lednicer`].
+pub(super) fn uncounted(points: &[DVec3], breaks: &[usize]) -> Option<UncountedSides> {
+    let mut inner = breaks.iter().filter(|place| **place < points.len());
+    let (first, others) = points.split_first()?;
+    let (split, is_divided) = match (inner.next(), inner.next()) {
+        (Some(place), None) => (*place, true),
+        (None, _) => (1 + others.iter().position(|it| it == first)?, false),
+        _ => return None,
+    };
+    let meets = points.get(split)?.distance(*first) <= NORMAL * extent(points).x;
+    let is_upper_second = [false, true].into_iter().find(|is_upper_second| {
+        let (rows, split) = upper_first(points, split, *is_upper_second);
+        let sides = rows.split_at_checked(split);
+        let nose = sides.is_some_and(|(upper, lower)| [upper, lower].map(runs_on) == [true; 2]);
+        nose && is_selig(&around(&rows, split, |a, b| a == b))
+    })?;
+    let size = extent(points);
+    let is_normal = [1.0, 100.0].into_iter().any(|chord| {
+        let near = |value: f64, wanted: f64| (value - wanted).abs() <= NORMAL * chord;
+        near(first.x, 0.0) && near(first.y, 0.0) && near(size.x, chord)
+    });
+    meets.then_some(UncountedSides {
+        split,
+        is_upper_second,
+        is_certain: !is_divided || is_normal,
+    })
+}
+
 /// Whether a side runs from its least x to its greatest.
 fn runs_on(side: &[DVec3]) -> bool {
     let back = side.windows(2).filter(|pair| pair[1].x < pair[0].x);
     back.count() as f64 <= STEPS_BACK * side.len() as f64
+}
+
+/// Bring the upper side before the lower one; returns where that begins.
+pub(super) fn upper_first<T: Copy>(
+    rows: &[T],
+    split: usize,
+    is_upper_second: bool,
+) -> (Vec<T>, usize) {
+    let mut rows = rows.to_vec();
+    if !is_upper_second {
+        return (rows, split);
+    }
+    let split = split.min(rows.len());
+    rows.rotate_left(split);
+    let upper = rows.len() - split;
+    (rows, upper)
 }
 
 /// Bring two sides that begin at the leading edge into the order around the section; the leading edge
@@ -176,6 +238,39 @@ mod tests {
             order,
             [(1.0, 0.0), (0.5, 0.1), (0.0, 0.0), (0.5, -0.1), (1.0, 0.0)]
         );
+    }
+
+    #[test]
+    fn sides_without_counts_are_told_where_nothing_else_is_likely() {
+        let upper = [(0.0, 0.0), (0.1, 0.06), (0.5, 0.1), (1.0, 0.01)];
+        let lower = [(0.0, 0.0), (0.1, -0.05), (0.5, -0.02), (1.0, -0.01)];
+        let told = |sides: [&[(f64, f64)]; 2], breaks: &[usize], scale: f64| {
+            let points = points(&sides.concat()).into_iter();
+            let points: Vec<DVec3> = points.map(|point| point * scale).collect();
+            let found = uncounted(&points, breaks)?;
+            Some((found.split, found.is_upper_second, found.is_certain))
+        };
+        for scale in [1.0, 100.0] {
+            assert_eq!(
+                told([&upper, &lower], &[4, 8], scale),
+                Some((4, false, true))
+            );
+            assert_eq!(
+                told([&lower, &upper], &[4, 8], scale),
+                Some((4, true, true))
+            );
+        }
+        // Waterlines of a hull may have this shape, but stand in metres.
+        assert_eq!(
+            told([&upper, &lower], &[4, 8], 12.0),
+            Some((4, false, false))
+        );
+        assert_eq!(told([&upper, &lower], &[8], 12.0), Some((4, false, true)));
+        assert_eq!(told([&upper, &upper], &[4, 8], 1.0), None);
+        assert_eq!(told([&upper, &lower[1..]], &[4, 7], 1.0), None);
+        assert_eq!(told([&upper, &lower], &[2, 4, 8], 1.0), None);
+        assert_eq!(told([&upper, &[]], &[4], 1.0), None);
+        assert_eq!(told([&[], &[]], &[], 1.0), None);
     }
 
     #[test]

@@ -99,6 +99,11 @@ pub enum Remark {
         /// The line.
         line: usize,
     },
+    /// Two blocks that may be the sides of an airfoil in Lednicer order.
+    MaybeSides {
+        /// The numbers of their points.
+        counts: [usize; 2],
+    },
     /// Positions on the earth that are read in metres about a place in degrees.
     TangentPlane {
         /// The latitude, north.
@@ -419,11 +424,22 @@ impl fmt::Display for Remark {
                 quoted(unit)
             ),
             Self::Airfoil { name, order } => {
-                write!(formatter, "{}: an airfoil in {order} order", quoted(name))
+                write!(formatter, "{}: an airfoil in {order} order", quoted(name))?;
+                match order {
+                    AirfoilOrder::Uncounted => formatter
+                        .write_str(" without its line of counts: both sides make one section"),
+                    AirfoilOrder::Selig | AirfoilOrder::Lednicer => Ok(()),
+                }
             }
             Self::Counts { line } => write!(
                 formatter,
                 "line {line}: the counts are not those of the two sides, which the blank line divides"
+            ),
+            Self::MaybeSides {
+                counts: [first, second],
+            } => write!(
+                formatter,
+                "the two blocks may be the sides of an airfoil: a line “{first}. {second}.” above the points makes one section of them"
             ),
             Self::TangentPlane {
                 latitude,

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer};
+use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer, uncounted, upper_first};
 use super::decimals::{Decimals, is_number, measured};
 use super::error::{Place, Problem, ReadError};
 use super::reading::{Reading, Remark, Remarks};
@@ -154,7 +154,7 @@ impl<'a> PointReader<'a> {
             return Err(Place::line(section.line).problem(error.into()));
         }
         let is_on_earth = layout.is_some_and(|layout| layout.coordinates.are_on_earth);
-        let (blocks, lednicer) = match is_on_earth {
+        let (blocks, told) = match is_on_earth {
             true => (blocks, None),
             false => self.in_order(blocks),
         };
@@ -175,7 +175,7 @@ impl<'a> PointReader<'a> {
                 _ => format!("{title}, block {number}"),
             });
             let points: Vec<DVec3> = block.rows.iter().map(|row| row.point).collect();
-            let order = match lednicer {
+            let order = match told {
                 Some(order) => Some(order),
                 None if is_on_earth => None,
                 None => is_selig(&points).then_some(AirfoilOrder::Selig),
@@ -462,17 +462,29 @@ impl<'a> PointReader<'a> {
             *end += length;
             Some(*end)
         });
-        let Some(sides) = lednicer(&points, &ends.collect::<Vec<_>>()) else {
+        let ends: Vec<usize> = ends.collect();
+        let is_same = |a: Row, b: Row| a.point == b.point;
+        let (rows, order) = if let Some(sides) = lednicer(&points, &ends) {
+            if !sides.are_counted {
+                self.remarks.add(Remark::Counts { line: rows[0].line });
+            }
+            let rows = around(&rows[1..], sides.split, is_same);
+            (rows, AirfoilOrder::Lednicer)
+        } else if let Some(sides) = uncounted(&points, &ends) {
+            if !sides.is_certain {
+                let counts = [sides.split, rows.len() - sides.split];
+                self.remarks.add(Remark::MaybeSides { counts });
+                return (blocks, None);
+            }
+            let (rows, split) = upper_first(&rows, sides.split, sides.is_upper_second);
+            (around(&rows, split, is_same), AirfoilOrder::Uncounted)
+        } else {
             return (blocks, None);
         };
-        if !sides.are_counted {
-            self.remarks.add(Remark::Counts { line: rows[0].line });
-        }
-        let rows = around(&rows[1..], sides.split, |a, b| a.point == b.point);
         let mut titles = blocks.into_iter().filter_map(|block| block.title);
         let title = titles.next();
         self.skipped.extend(titles.map(|(line, _)| line));
-        (vec![Block { title, rows }], Some(AirfoilOrder::Lednicer))
+        (vec![Block { title, rows }], Some(order))
     }
 
     /// Join blocks of one row each: there a blank line follows every row.

@@ -562,6 +562,25 @@ fn an_airfoil_in_lednicer_order_is_read_around_the_section() {
     ] {
         check_lists(&text, &[("foil", around)], told);
     }
+    let uncounted = format!("{told} without its line of counts: both sides make one section");
+    for text in [
+        format!("foil\n\n{upper}\n{lower}"),
+        format!("foil\n{upper}\n\n{lower}\n"),
+        format!("foil\n{upper}{lower}"),
+        format!("foil\n{lower}\n{upper}"),
+    ] {
+        check_lists(&text, &[("foil", around)], &uncounted);
+    }
+    // Waterlines of a hull in metres may look alike.
+    let hull = |row: &[f64; 2]| row.map(|value| 10.0 * value);
+    let [side, other] = [&around[..4], &around[3..]].map(|side| side.iter().map(hull).collect());
+    let (mut side, other): (Vec<_>, Vec<_>) = (side, other);
+    side.reverse();
+    check_lists(
+        &format!("hull\n{}\n{}", rows(&side), rows(&other)),
+        &[("hull", &side), ("hull, block 2", &other)],
+        "the two blocks may be the sides of an airfoil: a line “4. 4.” above the points makes one section of them",
+    );
     let told = format!(
         "line 2: the counts are not those of the two sides, which the blank line divides\n{told}"
     );
