@@ -1,5 +1,7 @@
 //! Points as they count in a fit.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
 use super::neighbours::{noise, outliers};
@@ -48,11 +50,11 @@ impl CountedPoints {
                 .into_iter()
                 .map(|it| numbers[it])
                 .collect(),
-            Some(given) => numbers
-                .iter()
-                .copied()
-                .filter(|it| given.contains(it))
-                .collect(),
+            Some(given) => {
+                let given: BTreeSet<&usize> = given.iter().collect();
+                let numbers = numbers.iter().filter(|it| given.contains(it));
+                numbers.copied().collect()
+            }
         };
         left_out.extend(numbers.iter().filter(|number| weight(**number) == 0.0));
         left_out.sort_unstable();

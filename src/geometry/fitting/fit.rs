@@ -30,6 +30,9 @@ const NOISE: f64 = 3.0;
 const MANY: usize = 1500;
 const ENOUGH: usize = 500;
 
+/// The most points that a fit is refined on. They leave nothing to bulge between them, and their errors cancel.
+const DENSE: usize = 20_000;
+
 /// The most vertices without a wish, without and with a tolerance, and the points that each of them stands for at
 /// least.
 const MOST_VERTICES: [usize; 2] = [40, 80];
@@ -183,8 +186,9 @@ pub fn fit_plane(
     asked: &PlaneFit,
     progress: &Progress,
 ) -> Result<Fitted, FitError> {
-    let whole = Prepared::new(points, asked)?;
-    let thinned = whole.thinned(asked);
+    let all = Prepared::new(points, asked)?;
+    let whole = all.thinned(asked, [DENSE, DENSE]).unwrap_or(all);
+    let thinned = whole.thinned(asked, [MANY, ENOUGH]);
     let fit = Fit {
         prepared: thinned.as_ref().unwrap_or(&whole),
         whole: &whole,
@@ -277,7 +281,7 @@ impl Prepared {
         }
         // Of many points neighbours are nearer to each other than their noise, which hides it.
         let noise = match found > MANY {
-            true => neighbours::noise(&every(&counted.points)),
+            true => neighbours::noise(&every(&counted.points, ENOUGH)),
             false => counted.noise,
         };
         let weights = counted.weights;
@@ -290,7 +294,8 @@ impl Prepared {
             }
         };
         let ends = ends(&counting, asked, unit);
-        let (all, counts) = match asked.periodic {
+        // Many points leave nothing to bulge between them.
+        let (all, counts) = match asked.periodic || found > DENSE {
             true => (
                 counted.points.into_iter().zip(weights).collect(),
                 vec![true; found],
@@ -318,9 +323,9 @@ impl Prepared {
 }
 
 impl Prepared {
-    /// About [`ENOUGH`] of the points, evenly, with the first and the last one, if there are many.
-    fn thinned(&self, asked: &PlaneFit) -> Option<Self> {
-        if self.counting <= MANY {
+    /// About so many of the points, evenly, with the first and the last one, if there are many.
+    fn thinned(&self, asked: &PlaneFit, [many, enough]: [usize; 2]) -> Option<Self> {
+        if self.counting <= many {
             return None;
         }
         let heavy = self.points.iter().zip(&self.weights).zip(&self.counts);
@@ -328,7 +333,7 @@ impl Prepared {
         let heavy: Vec<(DVec3, f64)> = heavy
             .map(|((at, weight), _)| (at.extend(0.0), *weight))
             .collect();
-        let kept = every(&heavy);
+        let kept = every(&heavy, enough);
         let counting = kept.len();
         let (points, weights): (Vec<DVec3>, Vec<f64>) = kept.iter().copied().unzip();
         let (all, counts) = match asked.periodic {
@@ -355,7 +360,7 @@ impl Prepared {
     fn places_of_all(&self, thinned: &Self, places: &[f64], end: f64, periodic: bool) -> Vec<f64> {
         let heavy = places.iter().zip(&thinned.counts);
         let heavy = heavy.filter_map(|(place, counts)| counts.then_some(*place));
-        let mut known: Vec<(f64, f64)> = kept_of(self.counting)
+        let mut known: Vec<(f64, f64)> = kept_of(self.counting, ENOUGH)
             .iter()
             .map(|it| *it as f64)
             .zip(heavy)
@@ -387,17 +392,17 @@ impl Prepared {
 }
 
 /// The numbers of those that are kept of many.
-fn kept_of(count: usize) -> Vec<usize> {
+fn kept_of(count: usize, enough: usize) -> Vec<usize> {
     let last = count.saturating_sub(1);
-    let step = last.div_ceil(ENOUGH).max(1);
+    let step = last.div_ceil(enough).max(1);
     let mut kept: Vec<usize> = (0..last).step_by(step).collect();
     kept.push(last);
     kept
 }
 
 /// Keep some of many, evenly, with the first and the last one.
-fn every<T: Copy>(all: &[T]) -> Vec<T> {
-    let kept = kept_of(all.len()).into_iter();
+fn every<T: Copy>(all: &[T], enough: usize) -> Vec<T> {
+    let kept = kept_of(all.len(), enough).into_iter();
     kept.filter_map(|number| all.get(number).copied()).collect()
 }
 
@@ -902,7 +907,8 @@ impl Fit<'_> {
         let mut known = 0;
         let near = |point: DVec2| {
             let scaled = (point - prepared.middle) / prepared.unit;
-            let exact = prepared.points.iter().enumerate().skip(known);
+            // The next point that counts is this one, or the one after a light one.
+            let exact = prepared.points.iter().enumerate().skip(known).take(3);
             let mut exact = exact.filter(|(_, it)| **it == scaled);
             if let Some((index, _)) = exact.next() {
                 known = index;

@@ -1,5 +1,7 @@
 //! What points tell of each other: noise, outliers, corners, and points between them.
 
+use std::collections::BTreeSet;
+
 use glam::{DVec2, DVec3};
 
 use super::first_places::unwrapped;
@@ -39,9 +41,14 @@ const MOST_CORNERS: usize = 200;
 /// The weight of a point between two points, as a share of theirs.
 const LIGHT: f64 = 0.1;
 
+/// The points of which the noise is estimated: of more the median hardly changes.
+const ENOUGH: usize = 20_000;
+
 /// Estimate the standard deviation of the points' noise; where points are sparse, an upper bound of it.
 pub(super) fn noise(points: &[DVec3]) -> f64 {
-    let distances = (0..points.len()).filter_map(|index| left_out_distance(points, index, None));
+    let step = points.len().div_ceil(ENOUGH).max(1);
+    let indices = (0..points.len()).step_by(step);
+    let distances = indices.filter_map(|index| left_out_distance(points, index, None));
     let mut sorted: Vec<f64> = distances.collect();
     sorted.sort_by(f64::total_cmp);
     let median = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
@@ -54,27 +61,36 @@ pub(super) fn outliers(points: &[DVec3]) -> Vec<usize> {
     let count = points.len();
     let distances = (0..count).map(|index| left_out_distance(points, index, None));
     let distances: Vec<f64> = distances.map(|it| it.unwrap_or(0.0)).collect();
-    let mut order: Vec<usize> = (END..count.saturating_sub(END)).collect();
-    order.sort_by(|a, b| distances[*b].total_cmp(&distances[*a]));
-    let mut found: Vec<usize> = Vec::new();
-    for index in order {
-        let own = distances[index];
+    let around = |index: usize, by: usize| {
+        let beside = [index.checked_sub(by), Some(index + by)];
+        beside.into_iter().flatten().filter(move |it| *it < count)
+    };
+    let stands_out = |index: &usize| {
+        let own = distances[*index];
         let space = 0.5 * points[index + 1].distance(points[index - 1]);
-        let beside = (1..=BESIDE).flat_map(|by| [index.checked_sub(by), Some(index + by)]);
-        let beside = beside.flatten().filter(|other| *other < count);
-        let beside = beside.filter_map(|other| left_out_distance(points, other, Some(index)));
-        let far = (APART..=APART + BESIDE).flat_map(|by| [index.checked_sub(by), Some(index + by)]);
-        let far = far
-            .flatten()
-            .filter_map(|other| distances.get(other).copied());
-        let most = beside.chain(far).fold(0.0, f64::max);
-        let is_free = found.iter().all(|other| other.abs_diff(index) > APART);
-        if is_free && own > OUTLYING * most && own > LEAST_OUTLYING * space {
-            found.push(index);
+        let far = (APART..=APART + BESIDE).flat_map(|by| around(*index, by));
+        let mut far = far.map(|other| distances[other]);
+        own > LEAST_OUTLYING * space && far.all(|far| own > OUTLYING * far)
+    };
+    // Of the few points that are left the neighbours are measured again.
+    let fits_without = |index: &usize| {
+        let mut beside = (1..=BESIDE).flat_map(|by| around(*index, by));
+        beside.all(|other| {
+            let distance = left_out_distance(points, other, Some(*index));
+            distance.is_none_or(|distance| distances[*index] > OUTLYING * distance)
+        })
+    };
+    let inner = END..count.saturating_sub(END);
+    let mut order: Vec<usize> = inner.filter(stands_out).filter(fits_without).collect();
+    order.sort_by(|a, b| distances[*b].total_cmp(&distances[*a]));
+    let mut found: BTreeSet<usize> = BTreeSet::new();
+    for index in order {
+        let near = index.saturating_sub(APART)..=index + APART;
+        if found.range(near).next().is_none() {
+            found.insert(index);
         }
     }
-    found.sort_unstable();
-    found
+    found.into_iter().collect()
 }
 
 /// List the points where the direction turns sharply, and much more than beside them: inner ones, or with `periodic`
@@ -140,8 +156,8 @@ pub(in crate::geometry) fn with_middles(
     let mut counts = vec![true];
     for index in 0..count - 1 {
         let first = index.saturating_sub(1).min(count - 2 * BESIDE);
-        let near: Vec<usize> = (first..first + 2 * BESIDE).collect();
-        let cubic = Cubic::new(points, &near, 0.5);
+        let near = std::array::from_fn(|other| points[first + other]);
+        let cubic = Cubic::new(near, f64::sqrt);
         let at = index - first;
         let middle = 0.5 * (cubic.places[at] + cubic.places[at + 1]);
         let [before, behind] = [heavy[index], heavy[index + 1]];
@@ -156,13 +172,11 @@ pub(in crate::geometry) fn with_middles(
 /// near the ends.
 fn left_out_distance(points: &[DVec3], index: usize, without: Option<usize>) -> Option<f64> {
     let counts = |other: &usize| Some(*other) != without;
-    let before: Vec<usize> = (0..index).rev().filter(counts).take(BESIDE).collect();
-    let behind = (index + 1..points.len()).filter(counts).take(BESIDE);
-    let near: Vec<usize> = before.into_iter().rev().chain(behind).collect();
-    if near.len() < 2 * BESIDE {
-        return None;
-    }
-    let cubic = Cubic::new(points, &near, 1.0);
+    let mut before = (0..index).rev().filter(counts);
+    let mut behind = (index + 1..points.len()).filter(counts);
+    let (second, first) = (before.next()?, before.next()?);
+    let near = [first, second, behind.next()?, behind.next()?];
+    let cubic = Cubic::new(near.map(|other| points[other]), |chord| chord);
     let [begin, end] = [cubic.places[1], cubic.places[2]];
     let step = (end - begin) / PARTS as f64;
     let target = points[index];
@@ -178,39 +192,37 @@ fn left_out_distance(points: &[DVec3], index: usize, without: Option<usize>) -> 
     Some(distances.fold(f64::INFINITY, f64::min))
 }
 
-/// The cubic through four points at given parameters (Lagrange).
+/// The cubic through four points at given parameters, by divided differences (Newton).
 struct Cubic {
-    points: [DVec3; 2 * BESIDE],
     places: [f64; 2 * BESIDE],
+    differences: [DVec3; 2 * BESIDE],
 }
 
 impl Cubic {
-    /// The parameters grow as a power of the chords.
-    fn new(points: &[DVec3], near: &[usize], power: f64) -> Self {
-        let mut cubic = Self {
-            points: [DVec3::ZERO; 2 * BESIDE],
-            places: [0.0; 2 * BESIDE],
-        };
-        for (index, point) in near.iter().enumerate() {
-            cubic.points[index] = points[*point];
-            if index > 0 {
-                let chord = cubic.points[index].distance(cubic.points[index - 1]);
-                cubic.places[index] = cubic.places[index - 1] + chord.powf(power);
+    /// The parameters grow by a measure of the chords.
+    fn new(points: [DVec3; 2 * BESIDE], measure: impl Fn(f64) -> f64) -> Self {
+        let mut places = [0.0; 2 * BESIDE];
+        for (index, chord) in points.windows(2).enumerate() {
+            places[index + 1] = places[index] + measure(chord[0].distance(chord[1]));
+        }
+        let mut differences = points;
+        for order in 1..differences.len() {
+            for index in (order..differences.len()).rev() {
+                let rise = differences[index] - differences[index - 1];
+                differences[index] = rise / (places[index] - places[index - order]);
             }
         }
-        cubic
+        Self {
+            places,
+            differences,
+        }
     }
 
     fn point(&self, place: f64) -> DVec3 {
-        let weight = |own: usize| {
-            let others = (0..self.places.len()).filter(|other| *other != own);
-            let factors = others.map(|other| {
-                (place - self.places[other]) / (self.places[own] - self.places[other])
-            });
-            factors.product::<f64>()
-        };
-        let terms = self.points.iter().enumerate();
-        terms.map(|(index, point)| weight(index) * *point).sum()
+        let [first, inner @ ..] = self.differences;
+        let [begin, second, third, _] = self.places;
+        let [a, b, c] = inner;
+        first + (place - begin) * (a + (place - second) * (b + (place - third) * c))
     }
 }
 
