@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::amount::Amount;
 use super::editable::{check_measurable, open};
+use super::end_change::remarks_on_change;
 use super::error::OperationError;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, locked};
@@ -214,7 +215,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let (id, curve) = input.curve()?;
     let curve = &with_targets(input, id, curve, values)?;
     let tolerance = values.real(&TOLERANCE);
-    let requirements = requirements(curve, values, both, tolerance)?;
+    let requirements = requirements(curve, values, tolerance)?;
     let is_met = |polygon: &FloatPolygon| {
         Check::of(&requirements, polygon, progress).is_some_and(|check| check.holds)
     };
@@ -231,7 +232,11 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             outcome.remarks = vec!["Already within the tolerance".to_owned()];
             outcome
         }
-        Some(polygon) => corrected(id, curve, polygon)?,
+        Some(polygon) => {
+            let remarks = remarks_on_change(curve, &polygon)?;
+            let outcome = corrected(id, curve, polygon)?;
+            Outcome { remarks, ..outcome }
+        }
         None => Outcome {
             requirements: vec![(id, vec![failed])],
             remarks: vec![correction.reason],
@@ -256,20 +261,14 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     Ok(outcome)
 }
 
-/// What must hold: the targets, the other end at its point and in its direction if both are corrected at once, and
-/// the locked vertices.
+/// What must hold: the targets, an end without one at its point and in its direction, and the locked vertices.
 fn requirements(
     curve: &Curve,
     values: &Values,
-    both: bool,
     tolerance: f64,
 ) -> Result<Vec<Requirement>, OperationError> {
     let polygon = &curve.polygon;
-    let targets = match both {
-        true => targets(curve).to_vec(),
-        false => curve.targets.list(),
-    };
-    let places = targets.into_iter();
+    let places = targets(curve).into_iter();
     let places = places.map(|(end, target)| place_of(polygon, end, target, tolerance));
     let vertices = locked(curve, values)?.into_iter();
     let vertices = vertices.map(|vertex| Requirement::Vertex {
@@ -409,7 +408,7 @@ fn at_once(
     }
 }
 
-/// Repeat steps 2 to 6 on every end that has a target.
+/// Repeat steps 2 to 6 on every end that has a target, and on one that has none if it moves with the other.
 fn step_by_step(
     curve: &Curve,
     values: &Values,
@@ -417,7 +416,11 @@ fn step_by_step(
     tolerance: f64,
 ) -> Result<Correction, OperationError> {
     let locked = locked(curve, values)?;
-    let outcome = correct_in_turn(&curve.polygon, &curve.targets.list(), tolerance)?;
+    let targets = match EndOverlap::of(&curve.polygon) {
+        EndOverlap::None => curve.targets.list(),
+        EndOverlap::Partial { .. } | EndOverlap::OneSegment => targets(curve).to_vec(),
+    };
+    let outcome = correct_in_turn(&curve.polygon, &targets, tolerance)?;
     let residual = outcome.residuals.last().copied().unwrap_or_default();
     let passes = outcome.passes();
     let moves =

@@ -15,6 +15,7 @@ mod bridge;
 mod cutting;
 mod degree;
 mod editable;
+mod end_change;
 mod error;
 mod features;
 mod handle;

@@ -115,6 +115,80 @@ fn an_end_without_a_target_keeps_its_point_and_direction() {
 }
 
 #[test]
+fn steps_reach_nothing_where_they_move_an_end_without_a_target() {
+    for (degree, count) in [(5, 6), (1, 2), (3, 5)] {
+        let angle = |index: usize| 0.4 * index as f64;
+        let vertices = (0..count).map(|index| (angle(index).cos(), angle(index).sin()));
+        let vertices: Vec<(f64, f64)> = vertices.collect();
+        let polygon = FloatPolygon::planar(degree, &vertices).expect("a polygon");
+        let target = beside(&polygon, End::Start, 0.1, 0.5);
+        let kept = EndTarget::keeping(&polygon.end_jet(End::Finish));
+        let runner = Runner::of(polygon.clone()).with_target(End::Start, target);
+        let outcome = runner.run("correct-ends", &[STEPS]).expect("it can run");
+        let after = outcome.applied_to(runner.input.document()).expect("edits");
+        let (_, after) = after.curves().next().expect("a curve");
+        let left = residual(&after.polygon, End::Finish, kept);
+        assert!(left <= 1e-8 * polygon.size(), "{degree}, {count}: {left:e}");
+        if !outcome.reached {
+            let (left, remark) = (outcome.residual, &outcome.remarks[0]);
+            assert!(left.is_some_and(|left| left > 1e-3), "{left:?}");
+            assert!(remark.ends_with("Use “both ends at once”"), "{remark}");
+        }
+    }
+}
+
+/// A wave along the x axis.
+fn wave() -> FloatPolygon {
+    let vertex = |index: usize| (0.1 * index as f64, 0.02 * (0.5 * index as f64).sin());
+    let vertices: Vec<(f64, f64)> = (0..24).map(vertex).collect();
+    FloatPolygon::planar(5, &vertices).expect("a polygon")
+}
+
+#[test]
+fn a_correction_that_changes_the_whole_curve_says_what_keeps_it() {
+    let end = wave().end_jet(End::Finish);
+    let up = EndTarget {
+        point: end.point + 0.01 * DVec3::Y,
+        ..EndTarget::default()
+    };
+    let over = EndTarget {
+        direction: Some(DVec3::new(-1.0, 0.1, 0.0)),
+        ..EndTarget::keeping(&end)
+    };
+    // Between locked vertices the end hardly follows those beside them.
+    let locked = ("locked", Value::List(vec![20.0, 21.0, 22.0]));
+    let told = |target: EndTarget, given: &[(&str, Value)]| {
+        let runner = Runner::of(wave()).with_target(End::Finish, target);
+        runner.done("correct-ends", given).0.remarks.join("\n")
+    };
+    assert_eq!(told(up, &[]), "");
+    for (remarks, begin) in [
+        (told(up, &[locked]), "The curve moves by up to "),
+        (
+            told(over, &[]),
+            "The curve turns by -189° in all, before by ",
+        ),
+    ] {
+        assert!(remarks.starts_with(begin), "{remarks}");
+        assert!(remarks.contains("“Also locked” (--locked)"), "{remarks}");
+    }
+}
+
+#[test]
+fn a_target_outside_its_plane_leads_a_planar_curve_into_space() {
+    let runner = Runner::of(wave());
+    let target = EndTarget {
+        point: DVec3::new(2.3, 0.0, 0.1),
+        ..EndTarget::default()
+    };
+    let runner = runner.with_target(End::Finish, target);
+    let (outcome, curves) = runner.done("correct-ends", &[]);
+    assert!(!curves[0].polygon.is_planar());
+    let remark = "A target lies outside the plane z = 0: the curve becomes a curve in space";
+    assert!(outcome.remarks.iter().any(|it| it == remark), "{outcome:?}");
+}
+
+#[test]
 fn what_is_within_the_tolerance_is_left_as_it_is() {
     let runner = both("hull");
     let loose = ("tolerance", Value::Real(runner.polygon().size()));

@@ -1,0 +1,60 @@
+//! Remarks on end corrections that change the curve more than they correct it.
+
+use std::f64::consts::PI;
+
+use super::error::OperationError;
+use crate::document::Curve;
+use crate::geometry::end_correction::{EndDifference, EndTarget};
+use crate::geometry::features::Turning;
+use crate::geometry::{End, FloatPolygon, significant};
+
+/// A curve that moves more than so many times as far as its ends has changed as a whole. Spreading a
+/// correction evenly over the polygon stays below.
+const MUCH: f64 = 10.0;
+
+/// Say where a correction moves the curve far, turns it over, or leads it out of its plane.
+///
+/// # Errors
+/// [`OperationError::Polygon`] if it cannot be measured how far the curve moves.
+pub(super) fn remarks_on_change(
+    curve: &Curve,
+    after: &FloatPolygon,
+) -> Result<Vec<String>, OperationError> {
+    let before = &curve.polygon;
+    let mut remarks = Vec::new();
+    let targets = curve.targets.list().into_iter();
+    let asked = targets.map(|(end, target)| correction(before, end, &target));
+    let asked = asked.fold(0.0, f64::max);
+    let moved = before.deviation(after)?;
+    let advice = "lock the vertices that are to stay with “Also locked” (--locked)";
+    if moved > MUCH * asked {
+        let [moved, asked] = [moved, asked].map(|length| significant(length, 3));
+        remarks.push(format!(
+            "The curve moves by up to {moved}, and the ends are corrected by {asked}: {advice}"
+        ));
+    }
+    if before.is_planar() && after.is_planar() && !before.is_rational() {
+        let [old, new] = [before, after].map(|polygon| Turning::new(polygon).total());
+        if (new - old).abs() > PI {
+            let [old, new] = [old, new].map(|angle| significant(angle.to_degrees(), 3));
+            remarks.push(format!(
+                "The curve turns by {new}° in all, before by {old}°: {advice}, or turn the target direction"
+            ));
+        }
+    }
+    if before.is_planar() && !after.is_planar() {
+        remarks.push(
+            "A target lies outside the plane z = 0: the curve becomes a curve in space".to_owned(),
+        );
+    }
+    Ok(remarks)
+}
+
+/// The size of a correction as a length: the shift, or how far the terminal legs turn or bend.
+fn correction(polygon: &FloatPolygon, end: End, target: &EndTarget) -> f64 {
+    let vertices = polygon.terminal_vertices(end);
+    let vertices = polygon.vertices().get(vertices).unwrap_or_default();
+    let legs = vertices.windows(2).map(|leg| leg[0].distance(leg[1]));
+    let leg = legs.fold(0.0, f64::max);
+    EndDifference::between(polygon, end, target).residual(leg)
+}
