@@ -13,6 +13,7 @@ use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
+use super::time_limit::{TIME_LIMIT, best_so_far, limited, why_ended};
 use super::value::Value;
 use super::values::Values;
 use crate::document::{Curve, Edit};
@@ -169,6 +170,7 @@ pub static OPERATION: Operation = Operation {
         CURVATURES,
         DEGREE,
         TOLERANCE,
+        TIME_LIMIT,
     ],
     check: |_| Ok(()),
     unused,
@@ -204,8 +206,24 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         },
     ];
     let kind = values.choice(&KIND, &kinds);
-    let mut outcome = match between(&ends, kind, degree, tolerance, progress) {
-        Ok(segment) => made(input, &segment),
+    let search = limited(progress, values);
+    let mut outcome = match between(&ends, kind, degree, tolerance, &search) {
+        Ok(segment) => {
+            let mut outcome = made(input, &segment);
+            let late = search.is_late() && !segment.is_found();
+            let late = late.then(|| best_so_far(&search, values));
+            outcome.remarks.extend(late);
+            outcome
+        }
+        Err(BetweenError::Cancelled) if search.is_late() => {
+            let why = why_ended(&search, values);
+            let failed = Requirement::Failed { left: None };
+            Outcome {
+                requirements: vec![(input.document().next_id(), vec![failed])],
+                remarks: vec![format!("{why} before a segment was found: allow more")],
+                ..Outcome::unchanged(Deviation::Unmeasured)
+            }
+        }
         Err(BetweenError::Cancelled) => return Err(OperationError::Cancelled),
         Err(
             error @ (BetweenError::NoChord
@@ -311,7 +329,7 @@ fn remarks(segment: &Segment) -> Vec<String> {
         ));
     }
     if segment.arc && segment.monotone != Verdict::Proved {
-        remarks.push("The ends ask for a circular arc: its curvature is constant, and that of the curve, which is polynomial, wobbles slightly about it".to_owned());
+        remarks.push("The ends ask for a circular arc: its curvature is constant, and that of the curve, which is polynomial, wobbles slightly about it. An arc need not be monotone to count as reached".to_owned());
     } else if segment.monotone != Verdict::Proved {
         remarks.push(match curvatures_agree(segment) {
             true => "The ends ask almost for a circular arc: its curvature hardly changes, and that of a polynomial curve rises and falls".to_owned(),

@@ -149,6 +149,48 @@ fn where_there_is_none_the_limits_are_told_and_nothing_is_made() {
 }
 
 #[test]
+fn a_search_for_any_curve_ends_in_time_with_the_best_so_far() {
+    let mut given = ends(
+        [
+            -676686.0771898838,
+            -584254.9577265265,
+            0.002468966244952032,
+            0.014055409997627883,
+        ],
+        [
+            191771.59821489485,
+            -1164465.7114317538,
+            -0.003403583925860599,
+            0.0008233938633449265,
+        ],
+    );
+    given.push(("kind", ANY));
+    given.push(("degree", Value::Whole(25)));
+    given.push(("from-curvature", Value::List(vec![-1.9981802471017786e-07])));
+    given.push(("time-limit", Value::List(vec![1e-6])));
+    let outcome = run(&nothing(), &given).expect("an answer");
+    let remarks = outcome.remarks.join("\n");
+    assert!(!outcome.reached);
+    assert!(
+        remarks.contains("The time limit of 0.000001 s ended the search"),
+        "{remarks}"
+    );
+}
+
+#[test]
+fn an_arc_counts_as_reached_though_it_is_not_monotone() {
+    let mut given = ends([0.0, 0.0, 1.0, 1.0], [10.0, 0.0, 1.0, -1.0]);
+    given.push(("kind", ANY));
+    let outcome = run(&nothing(), &given).expect("an arc");
+    assert!(outcome.reached);
+    let remarks = outcome.remarks.join("\n");
+    assert!(
+        remarks.contains("An arc need not be monotone to count as reached"),
+        "{remarks}"
+    );
+}
+
+#[test]
 fn the_curvature_of_one_end_chooses_alpha() {
     let mut given = ends([0.0, 0.0, 1.0, 1.0], [10.0, 0.0, 3.0, -2.0]);
     given.push(("alpha", Value::List(vec![0.75])));

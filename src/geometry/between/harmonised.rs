@@ -7,11 +7,13 @@ use glam::DVec3;
 use super::ends::{Ends, Task};
 use super::error::BetweenError;
 use super::existence::check_existence;
-use super::polygon::{Fit, exact_ends, fit, quasi};
+use super::polygon::{Fit, exact_ends, fit, monotony, quasi};
 use super::solving::log_aesthetic_parts;
 use crate::geometry::differentiable::Differentiable;
-use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
-use crate::geometry::features::{Features, Verdict};
+use crate::geometry::fairing::harmonising::{
+    Harmonised, Harmony, HarmonyError, Held, least_change,
+};
+use crate::geometry::features::Verdict;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
@@ -20,6 +22,9 @@ const LONGEST: f64 = 3.0;
 
 /// The numbers of segments that are tried.
 const COUNTS: [usize; 3] = [16, 24, 40];
+
+/// The share of the time that is left for each of them.
+const SHARE: f64 = 0.3;
 
 /// The α of the log-aesthetic segments that are tried where harmonising does not do: that of the curvatures
 /// or the clothoid's, with pairs and chains of them, then those of spirals.
@@ -37,17 +42,17 @@ pub(super) fn monotone(
 ) -> Result<Fit, BetweenError> {
     check_existence(task)?;
     let own = best_harmonised(task, ends, degree, progress);
-    match own {
-        Err(BetweenError::Cancelled) => return Err(BetweenError::Cancelled),
-        Ok((fit, true)) => return Ok(fit),
-        _ => {}
+    if let Ok((fit, true)) = own {
+        return Ok(fit);
     }
     for alpha in ALPHAS {
+        if progress.is_cancelled() {
+            break;
+        }
         let parts = log_aesthetic_parts(task, alpha);
         let found =
             parts.and_then(|parts| fit(&parts, ends, degree, tolerance(parts.length()), progress));
         match found {
-            Err(BetweenError::Cancelled) => return found,
             // It is a monotone curve of its own, whatever it is near to.
             Ok(found) if found.monotone == Verdict::Proved => {
                 return Ok(Fit {
@@ -57,6 +62,9 @@ pub(super) fn monotone(
             }
             _ => {}
         }
+    }
+    if progress.is_cancelled() && (own.is_err() || !progress.is_late()) {
+        return Err(BetweenError::Cancelled);
     }
     own.map(|(fit, _)| fit)
 }
@@ -70,14 +78,19 @@ fn best_harmonised(
 ) -> Result<(Fit, bool), BetweenError> {
     let mut best: Option<Fit> = None;
     for count in COUNTS {
+        if progress.is_cancelled() {
+            break;
+        }
         let begun = quasi(&Cubic::between(task, ends), 1.0, degree, count)?;
-        let begun = exact_ends(&begun, ends)?;
-        let found = harmonised(&begun, task, ends, progress)?;
-        let monotone = Features::new(&found.polygon).monotone;
+        let begun = exact_ends(&begun, ends, progress)?;
+        let found = match harmonised(&begun, task, ends, &progress.hurried(SHARE)) {
+            Err(BetweenError::Cancelled) => continue,
+            found => found?,
+        };
         let fit = Fit {
+            monotone: monotony(&found.polygon, progress),
             polygon: found.polygon,
             deviation: 0.0,
-            monotone,
         };
         if found.reached {
             return Ok((fit, true));
@@ -109,7 +122,7 @@ fn harmonised(
         torsion_extrema: None,
         largest_deviation: None,
     };
-    harmonise(polygon, &harmony, progress).map_err(|error| match error {
+    least_change(polygon, &harmony, progress).map_err(|error| match error {
         HarmonyError::Cancelled => BetweenError::Cancelled,
         error => error.into(),
     })

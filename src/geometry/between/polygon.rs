@@ -59,6 +59,7 @@ pub(super) fn fit(
         Err(BetweenError::Cancelled) => return own,
         Ok(fit) if reached(&fit) || parts.is_arc() => return Ok(fit),
         own => match (own, search.closest_by_bending()) {
+            (Ok(own), Err(BetweenError::Cancelled)) if progress.is_late() => Ok(own),
             (_, Err(BetweenError::Cancelled)) => return Err(BetweenError::Cancelled),
             (Ok(own), Ok(other)) if other.is_better(&own, tolerance) => Ok(other),
             (Err(_), other) => other,
@@ -67,7 +68,7 @@ pub(super) fn fit(
     };
     let mut found = found?;
     if found.deviation > tolerance {
-        found.monotone = Features::new(&found.polygon).monotone;
+        found.monotone = monotony(&found.polygon, progress);
     }
     Ok(found)
 }
@@ -120,12 +121,13 @@ impl Search<'_> {
         let mut failed = None;
         for (index, count) in COUNTS.into_iter().enumerate() {
             if self.progress.is_cancelled() {
-                return Err(BetweenError::Cancelled);
+                break;
             }
             self.progress.set_done(index as f64 / COUNTS.len() as f64);
             // Few segments near a singularity of the true one make no curve.
             let found = quasi(curve, end, self.degree, count);
-            let found = found.and_then(|polygon| Ok(exact_ends(&polygon, self.ends)?));
+            let found =
+                found.and_then(|polygon| Ok(exact_ends(&polygon, self.ends, self.progress)?));
             let polygon = match found {
                 Ok(found) => found,
                 Err(error) => {
@@ -134,10 +136,14 @@ impl Search<'_> {
                 }
             };
             let rate = end / count as f64;
-            let deviation = deviation(self.parts, &polygon, &|u| own(u * rate))?;
+            let deviation = deviation(self.parts, &polygon, &|u| own(u * rate), self.progress);
+            let deviation = match deviation {
+                Err(ApproximationError::Cancelled) => break,
+                deviation => deviation?,
+            };
             let close = deviation <= self.tolerance;
             let monotone = match close {
-                true => Features::new(&polygon).monotone,
+                true => monotony(&polygon, self.progress),
                 false => Verdict::Undecided,
             };
             let found = Fit {
@@ -161,8 +167,13 @@ impl Search<'_> {
             }
         }
         match (best, failed) {
+            _ if self.progress.is_cancelled() && !self.progress.is_late() => {
+                Err(BetweenError::Cancelled)
+            }
             (Some(best), _) => Ok(best),
-            (None, failed) => Err(failed.unwrap_or(BetweenError::Cancelled)),
+            // What the end of the time spoilt says nothing.
+            (None, Some(error)) if !self.progress.is_cancelled() => Err(error),
+            (None, _) => Err(BetweenError::Cancelled),
         }
     }
 }
@@ -182,9 +193,10 @@ pub(super) fn quasi(
 pub(super) fn exact_ends(
     polygon: &FloatPolygon,
     ends: &Ends,
+    progress: &Progress,
 ) -> Result<FloatPolygon, CorrectionError> {
     let targets = [(End::Start, ends.target(0)), (End::Finish, ends.target(1))];
-    let corrected = correct_jointly(polygon, &targets, DISTURBANCE, &[], &Progress::default())?;
+    let corrected = correct_jointly(polygon, &targets, DISTURBANCE, &[], progress)?;
     Ok(corrected.polygon)
 }
 
@@ -194,8 +206,15 @@ fn deviation(
     parts: &Parts,
     polygon: &FloatPolygon,
     parameter: &dyn Fn(f64) -> f64,
+    progress: &Progress,
 ) -> Result<f64, ApproximationError> {
-    let (interval, progress) = ([0.0, parts.end], Progress::default());
-    let measured = MeasuredDeviation::measure(polygon, parts, parameter, interval, &progress)?;
+    let interval = [0.0, parts.end];
+    let measured = MeasuredDeviation::measure(polygon, parts, parameter, interval, progress)?;
     Ok(measured.largest)
+}
+
+/// Whether the curvature is proved to be monotone before `progress` is cancelled.
+pub(super) fn monotony(polygon: &FloatPolygon, progress: &Progress) -> Verdict {
+    let features = Features::proved(polygon, |_| !progress.is_cancelled());
+    features.map_or(Verdict::Undecided, |features| features.monotone)
 }

@@ -69,6 +69,14 @@ pub struct Segment {
     pub straight: bool,
 }
 
+impl Segment {
+    /// Whether it is near enough to the true segment, and monotone or an arc.
+    pub fn is_found(&self) -> bool {
+        let is_monotone = self.arc || self.monotone == Verdict::Proved;
+        is_monotone && self.deviation <= self.tolerance
+    }
+}
+
 /// What a segment must hold.
 fn requirements(
     polygon: &FloatPolygon,
@@ -100,7 +108,8 @@ fn requirements(
 /// Find a segment of a kind between two ends, as a float polygon of a degree from 3 on: with the fewest
 /// segments, of a fixed series of numbers, with which it stays within `tolerance` of the true segment
 /// (1e-6 of that segment's length if none is given) and has monotone curvature, proved.
-/// Between the ends of a circular arc it follows the arc.
+/// Between the ends of a circular arc it follows the arc. When the time of `progress` is up it is the nearest that was
+/// found.
 ///
 /// The vertices quasi-interpolate the true segment at equal steps of arc length, superspirals of
 /// the direction angle, and log-aesthetic segments that bend too sharply for that of ln ρ; then both ends are made exact by the least disturbance.
