@@ -17,6 +17,7 @@ mod crossing;
 mod curvature_levels;
 mod cut;
 mod differentiable;
+pub mod distance;
 mod end;
 pub mod end_correction;
 mod error;

@@ -33,8 +33,17 @@ const COUNT_OFFERED: usize = 20;
 /// If none is given the number is doubled while the corrections of quasi-interpolation grow, so many times at most.
 const DOUBLINGS: usize = 5;
 
+/// A curve that is farther off than this share of the reference's size hardly follows it.
+const FAR: f64 = 0.1;
+
+/// The steps between the points that show the size of a reference.
+const SIZE_SAMPLES: usize = 256;
+
 /// The share that the search has of all work; what else would do is told afterwards.
 const SEARCH: f64 = 0.8;
+
+/// The share of the time that is left for what else would do; in the rest features are proved.
+const ALTERNATIVES: f64 = 0.8;
 
 const REFERENCE: Parameter = Parameter {
     name: "reference",
@@ -278,6 +287,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     remarks.extend(remark_on_time(&why, &found, tolerance));
     remarks.extend(alternatives);
     remarks.extend(remark_on_levels(values, &found));
+    remarks.extend(remark_on_size(&source, &found, tolerance));
     remarks.extend(remark_on_corrections(&found));
     remarks.extend(remark_on_cusps(&source, found.interval));
     remarks.extend(remark_on_quasi(&found, nearer));
@@ -379,8 +389,9 @@ fn approximated(
                 spacing,
                 most_segments: MOST_SEGMENTS,
             };
-            let [first, rest] = [progress.part(0.0, SEARCH), progress.part(SEARCH, 1.0)];
+            let first = progress.part(0.0, SEARCH);
             let found = approximate_to_tolerance(curve, interval, &goal, &asked, &first)?;
+            let rest = progress.part(SEARCH, 1.0).hurried(ALTERNATIVES);
             let remark = match found.stopped {
                 true => None,
                 false => remark_on_alternatives(curve, interval, &goal, &asked, &found, &rest),
@@ -517,6 +528,29 @@ fn annotations(source: &Source<'_>, found: &Approximated) -> Vec<Annotation> {
     let differences = found.levels.iter().filter_map(difference);
     let places: Vec<DVec3> = std::iter::once(largest).chain(differences).collect();
     places.into_iter().map(Annotation::Point).collect()
+}
+
+/// Say that the curve is far off, where no tolerance does.
+fn remark_on_size(
+    source: &Source<'_>,
+    found: &Approximated,
+    tolerance: Option<f64>,
+) -> Option<String> {
+    let [from, to] = found.interval;
+    let curve = source.differentiable();
+    let sample = |index: usize| {
+        let share = index as f64 / SIZE_SAMPLES as f64;
+        curve.derivatives(from * (1.0 - share) + to * share, 0)[0]
+    };
+    let points: Vec<DVec3> = (0..=SIZE_SAMPLES).map(sample).collect();
+    let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let size = low.distance(high);
+    let off = found.distance();
+    (tolerance.is_none() && off > FAR * size).then(|| {
+        let [off, size] = [off, size].map(|length| significant(length, 3));
+        format!("The curve is {off} off a reference of size {size}: take more vertices, or give a tolerance")
+    })
 }
 
 /// Say that quasi-interpolation diverges: its corrections grow instead of fading.

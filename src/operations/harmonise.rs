@@ -10,9 +10,10 @@ use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, Meaning, Parameter};
-use super::time_limit::{TIME_LIMIT, best_so_far, limited};
+use super::time_limit::{TIME_LIMIT, best_so_far, limited, why_ended};
 use super::values::Values;
 use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
+use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{FloatPolygon, Progress, counted, rounded_up};
@@ -167,6 +168,15 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let progress = limited(progress, values);
     let found = match harmonise(&curve.polygon, &harmony, &progress) {
         Ok(found) => found,
+        Err(HarmonyError::Cancelled) if progress.is_late() => {
+            let failed = Requirement::Failed { left: None };
+            let why = why_ended(&progress, values);
+            return Ok(Outcome {
+                requirements: vec![(id, vec![failed])],
+                remarks: vec![format!("{why} before a curve was found: allow more")],
+                ..Outcome::unchanged(Deviation::Exact)
+            });
+        }
         Err(HarmonyError::Cancelled) => return Err(OperationError::Cancelled),
         Err(error) => return Err(error.into()),
     };
@@ -177,9 +187,9 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         }
         outcome
     } else {
-        let deviation = match found.refitted {
-            true => Deviation::Measured(found.deviation),
-            false => Deviation::AtMost(found.deviation),
+        let deviation = match found.bounded {
+            true => Deviation::AtMost(found.deviation),
+            false => Deviation::Measured(found.deviation),
         };
         Outcome::reshaped(id, found.polygon.clone(), deviation)
     };
@@ -195,6 +205,9 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             "Fitted to the curve: the least change of vertices does not do, or moves it too far"
                 .to_owned(),
         );
+    }
+    if found.reached {
+        outcome.remarks.extend(remark_on_lost(&found));
     }
     if let Some(stretch) = stretch {
         let polygons = [&curve.polygon, &found.polygon];
@@ -234,6 +247,27 @@ fn one_end() -> [Option<Held>; 7] {
         *meaning = Some(level);
     }
     meanings
+}
+
+/// Say how many of the features that stand out are left, if not all of them.
+fn remark_on_lost(found: &Harmonised) -> Option<String> {
+    let (has, asked) = (found.counts, found.request);
+    let counts = [
+        (has.extrema, asked.extrema, "curvature extrema"),
+        (has.inflections, asked.inflections, "inflections"),
+        (
+            has.torsion_extrema,
+            asked.torsion_extrema,
+            "torsion extrema",
+        ),
+    ];
+    let lost = counts.into_iter().filter(|(has, asked, _)| has < asked);
+    let lost = lost.map(|(has, asked, name)| format!("{has} of the {asked} {name}"));
+    let lost: Vec<String> = lost.collect();
+    (!lost.is_empty()).then(|| {
+        let lost = lost.join(" and ");
+        format!("{lost} that stand out are left: ask for a number to keep more")
+    })
 }
 
 /// Say what the best that was found lacks.

@@ -37,7 +37,10 @@ pub(super) fn limited(progress: &Progress, values: &Values) -> Progress {
 pub(super) fn why_ended(progress: &Progress, values: &Values) -> String {
     match progress.is_stopped() {
         true => "Stopped".to_owned(),
-        false => format!("The time of {} s was up", brief(seconds(values))),
+        false => format!(
+            "The time limit of {} s ended the search",
+            brief(seconds(values))
+        ),
     }
 }
 

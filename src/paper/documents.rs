@@ -6,7 +6,9 @@ use glam::{DVec2, DVec3};
 
 use super::PaperPage;
 use crate::document::{Colour, Curve, Document, Reference};
-use crate::geometry::approximation::{MeasuredDeviation, Placing, UniformKnots, float_polygon};
+use crate::geometry::approximation::{
+    ApproximationError, MeasuredDeviation, Placing, UniformKnots, float_polygon,
+};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::mineur_farin::{Configuration, Format};
@@ -152,7 +154,8 @@ pub fn spiral_deviations(vertices: usize) -> Result<[f64; 2], PaperError> {
         let polygon = float_polygon(&spiral, &knots, placing)?;
         let parameter = |u| knots.curve_parameter(u);
         let (reach, progress) = (knots.reach(), Progress::default());
-        let measured = MeasuredDeviation::measure(&polygon, &spiral, &parameter, reach, &progress)?;
+        let measured = MeasuredDeviation::measure(&polygon, &spiral, &parameter, reach, &progress);
+        let measured = measured.map_err(ApproximationError::from)?;
         Ok::<_, PaperError>(measured.largest)
     };
     Ok([far(Placing::OnCurve)?, far(Placing::Quasi)?])

@@ -30,6 +30,7 @@ const ORDERED: [Layer; 2] = [
             "conversion",
             "features",
             "harmony",
+            "distance",
             "fitting",
             "fairing",
             "rebuilding",

@@ -980,7 +980,10 @@ fn a_time_limit_is_a_day_at_most_and_told_with_few_digits() {
     }
     folder.misused(&fit("0"), "Time limit: 0 is out of range");
     let (_, err) = texts(&folder.run(&fit("1e-300")));
-    assert!(err.contains("The time of 1e-300 s was up"), "{err}");
+    assert!(
+        err.contains("The time limit of 1e-300 s ended the search"),
+        "{err}"
+    );
 }
 
 #[test]

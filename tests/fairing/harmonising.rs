@@ -292,6 +292,91 @@ fn the_best_found_comes_close_where_what_is_asked_is_out_of_reach() {
     );
 }
 
+/// Polygons at random, with the numbers of extrema for which a curve is fitted to them.
+const TANGLED: [(usize, usize, &[(f64, f64)]); 2] = [
+    (
+        5,
+        12,
+        &[
+            (-4.570689275685332, 3.270761028869215),
+            (4.2913156958878265, 3.1810212885627145),
+            (-4.007445340065815, 0.8489963622593732),
+            (-3.906927562157958, -4.5795588736676685),
+            (-4.479446272375261, 4.970861508088843),
+            (1.0767238197628117, -0.006926577388602695),
+            (4.03813020934763, 3.5651197427838675),
+            (2.381200639994626, -4.5255062099840915),
+            (-1.5117642819368626, 4.526392209740678),
+            (-1.2716009085138769, -2.7361680328436178),
+            (-1.7721512546989326, 4.280689204361634),
+            (-4.657522321378986, 1.297907516405413),
+            (-3.665393879378308, 0.6870453200546294),
+            (1.5479125257450406, 2.1386764239066913),
+            (4.23210718405395, -4.652837287572398),
+        ],
+    ),
+    (
+        4,
+        15,
+        &[
+            (4.81221058148159, 3.0794373344767028),
+            (1.2844850198214077, -2.324737553528883),
+            (4.128628900924319, 4.594388378770715),
+            (-3.6087384097852904, 2.7575725031571565),
+            (3.419308585435237, 1.5971735631398252),
+            (2.004077664167305, -0.5494126788548837),
+            (4.243078026249281, 4.712075281962813),
+            (-1.1764668717982554, 3.0271153080035678),
+            (-0.6707840861946366, -3.352457813167262),
+            (-1.7453272314273605, -3.736699251651575),
+            (4.088847599027046, 4.594240800441439),
+            (-3.8081326759412515, 1.0067908118705846),
+            (-0.9177590229141686, -3.8190996899821084),
+            (-2.0452448518818303, -2.517836289193519),
+            (2.4957681118975668, -4.959910440459541),
+            (-3.101612960669163, -0.6122692988006309),
+            (-4.789653269141287, 1.2752658853748047),
+        ],
+    ),
+];
+
+/// The largest distance of points on one curve from another curve.
+fn off(one: &FloatPolygon, other: &FloatPolygon) -> f64 {
+    const SAMPLES: usize = 24;
+    let points = (0..=SAMPLES * one.segments()).map(|it| one.point(it as f64 / SAMPLES as f64));
+    let far = points.map(|point| point.distance(other.nearest(point).point));
+    far.fold(0.0, f64::max)
+}
+
+#[test]
+fn a_fitted_curve_is_no_farther_away_than_it_says() {
+    let mut fitted = 0;
+    for (degree, extrema, vertices) in TANGLED {
+        let polygon = FloatPolygon::planar(degree, vertices).expect("a polygon");
+        for most in [0.55, 0.73, 5.0] {
+            let asked = Harmony {
+                inflections: None,
+                largest_deviation: Some(most),
+                ..asked(extrema, 0)
+            };
+            let found = harmonise(&polygon, &asked, &Progress::default()).expect("a result");
+            let far = off(&polygon, &found.polygon).max(off(&found.polygon, &polygon));
+            println!(
+                "{extrema}: {} says {}, is {far}",
+                found.reached, found.deviation
+            );
+            assert!(
+                far <= 1.001 * found.deviation + 1e-12,
+                "{far} {}",
+                found.deviation
+            );
+            assert!(!found.reached || found.deviation <= most);
+            fitted += usize::from(found.refitted);
+        }
+    }
+    assert!(fitted > 0);
+}
+
 /// A noisy ellipse of 44 unit legs and degree 5, whose curvature is monotone over the seam, and the
 /// stretch where it is.
 fn noisy_ellipse(random: &mut Random) -> (FloatPolygon, [f64; 2]) {

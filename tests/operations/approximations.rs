@@ -424,9 +424,23 @@ fn a_search_whose_time_is_up_tells_the_best_so_far() {
         let given = [&slow[..], &[("time-limit", limit)]].concat();
         let (_, outcome) = run(&given).expect("it can run");
         let told = outcome.remarks.join(". ");
-        let reason = format!("The time of {limit} s was up");
+        let reason = format!("The time limit of {limit} s ended the search");
         assert!(!outcome.reached && told.contains(&reason), "{told}");
         assert_eq!(outcome.is_useful(), limit == "1.5", "{told}");
+    }
+}
+
+#[test]
+fn a_curve_that_is_far_off_its_reference_says_so() {
+    for (count, is_far) in [("9", true), ("40", false)] {
+        let given = [("reference", "circle:to=20"), ("count", count)];
+        let (_, outcome) = run(&given).expect("it can run");
+        let remarks = outcome.remarks.join("\n");
+        assert_eq!(
+            remarks.contains("off a reference of size"),
+            is_far,
+            "{remarks}"
+        );
     }
 }
 

@@ -64,6 +64,57 @@ fn a_monotone_curve_is_left_as_it_is() {
 }
 
 #[test]
+fn a_remark_says_where_features_that_stand_out_are_lost() {
+    let vertices = [
+        (0.20, 1.05),
+        (2.81, 0.69),
+        (5.92, -0.11),
+        (9.36, 0.75),
+        (11.25, 1.00),
+        (14.78, 0.33),
+        (18.52, -0.50),
+        (21.35, -0.44),
+        (24.06, 1.57),
+        (27.19, 0.46),
+        (30.19, -0.83),
+        (32.82, -0.07),
+        (37.32, -1.21),
+        (39.27, -1.09),
+        (41.93, 0.30),
+        (45.99, -0.92),
+        (48.36, 0.60),
+        (51.14, -0.60),
+        (54.26, -1.07),
+        (57.23, -0.66),
+        (60.18, -0.70),
+        (63.51, -1.57),
+        (66.05, -1.38),
+        (68.57, -1.29),
+        (71.51, 0.23),
+        (74.71, -0.15),
+        (78.45, -0.81),
+    ];
+    let polygon = FloatPolygon::planar(12, &vertices).expect("valid");
+    let given = [
+        ("inflections", list(&[2.0])),
+        ("keep", Value::Choice(3)),
+        ("keep-start", Value::Choice(1)),
+        ("keep-end", Value::Choice(2)),
+        ("locked", list(&[24.0, 25.0])),
+    ];
+    let (outcome, curves) = Runner::of(polygon).done("harmonise", &given);
+    let asked = outcome.figures.iter().find(|it| it.name == "asked_extrema");
+    let Some(Value::Whole(asked)) = asked.map(|it| it.value.clone()) else {
+        panic!("{:?}", outcome.figures);
+    };
+    let left = extrema(&curves[0].polygon);
+    assert!(left < asked);
+    let remark = format!("{left} of the {asked} curvature extrema that stand out are left");
+    let remarks = outcome.remarks.join("\n");
+    assert!(remarks.contains(&remark), "{remarks}");
+}
+
+#[test]
 fn locked_vertices_stay_to_the_bit() {
     let runner = noisy();
     let curve = runner.id();

@@ -3,7 +3,6 @@
 
 use glam::DVec3;
 
-use super::deviation::MeasuredDeviation;
 use super::equivalence::{LevelComparison, Places, compare_levels};
 use super::error::ApproximationError;
 use super::knots::UniformKnots;
@@ -11,6 +10,7 @@ use super::placing::{Corrections, Placing, placed};
 use super::spacing::{Respaced, Spacing};
 use super::watched::Watched;
 use crate::geometry::differentiable::Differentiable;
+use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::end::End;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
@@ -33,6 +33,9 @@ const GROWTH: std::ops::RangeInclusive<f64> = 1.5..=6.0;
 
 /// The share of the time that the search has; what is left is for the figures of its result.
 const SEARCHING: f64 = 0.75;
+
+/// The share of that for the distance and the levels of the result; in the rest its features are proved.
+const TELLING: f64 = 0.6;
 
 /// The spacings that are tried for a tolerance, the simplest first.
 const SPACINGS: [Spacing; 3] = [Spacing::Parameter, Spacing::ArcLength, Spacing::Curvature];
@@ -139,7 +142,8 @@ pub fn approximate_by_steps(
     request: &ApproximationRequest,
 ) -> Result<Approximated, ApproximationError> {
     let knots = UniformKnots::of_vertices(request.degree, first, step, count)?;
-    approximated(curve, &knots, None, request, Precision::Full)
+    let progress = Progress::default();
+    approximated(curve, &knots, None, request, Precision::Full, &progress)
 }
 
 /// Approximate the part of a curve between two of its parameters by so many vertices.
@@ -153,9 +157,23 @@ pub fn approximate_between(
     spacing: Spacing,
     request: &ApproximationRequest,
 ) -> Result<Approximated, ApproximationError> {
+    let progress = Progress::default();
+    told(curve, interval, count, spacing, request, &progress)
+}
+
+/// Approximate as [`approximate_between`] does, until `progress` is cancelled.
+fn told(
+    curve: &dyn Differentiable,
+    interval: [f64; 2],
+    count: usize,
+    spacing: Spacing,
+    request: &ApproximationRequest,
+    progress: &Progress,
+) -> Result<Approximated, ApproximationError> {
     let respaced = Respaced::by(curve, interval, spacing)?;
     let knots = request.knots(interval, respaced.as_ref(), count)?;
-    approximated(curve, &knots, respaced.as_ref(), request, Precision::Full)
+    let respaced = respaced.as_ref();
+    approximated(curve, &knots, respaced, request, Precision::Full, progress)
 }
 
 /// Approximate the part of a curve between two of its parameters so that the deviation is at most a
@@ -186,17 +204,19 @@ pub fn approximate_to_tolerance(
         interval,
         goal,
         request,
+        progress: &hurried,
         spacings: spacings
             .map(|it| Respaced::by(&watched, interval, it))
             .collect(),
     };
-    let found = search.run(&hurried)?;
+    let found = search.run()?;
     // What is too far away was not compared yet, nor are places of features refined.
     let count = found.polygon.vertices().len();
-    let watched = Watched::new(curve, progress);
-    let told = approximate_between(&watched, interval, count, found.spacing, request);
+    let hurried = progress.hurried(TELLING);
+    let watched = Watched::new(curve, &hurried);
+    let told = told(&watched, interval, count, found.spacing, request, &hurried);
     let mut told = match told {
-        Ok(told) if !progress.is_cancelled() => told,
+        Ok(told) if !hurried.is_cancelled() => told,
         _ => return Ok(found),
     };
     told.stopped = found.stopped;
@@ -218,12 +238,14 @@ struct Search<'a> {
     interval: [f64; 2],
     goal: &'a Goal,
     request: &'a ApproximationRequest,
+    progress: &'a Progress,
     /// A curve that stops somewhere has no arc length to go by; its own parameter is left then.
     spacings: Vec<Result<Option<Respaced<'a>>, ApproximationError>>,
 }
 
 impl Search<'_> {
-    fn run(&self, progress: &Progress) -> Result<Approximated, ApproximationError> {
+    fn run(&self) -> Result<Approximated, ApproximationError> {
+        let progress = self.progress;
         let least = match self.request.periodic {
             true => self.request.degree + 1,
             false => 1,
@@ -355,6 +377,7 @@ impl Search<'_> {
             respaced,
             self.request,
             Precision::Goal { tolerance },
+            self.progress,
         )
     }
 }
@@ -437,6 +460,7 @@ fn approximated(
     respaced: Option<&Respaced>,
     request: &ApproximationRequest,
     precision: Precision,
+    progress: &Progress,
 ) -> Result<Approximated, ApproximationError> {
     let (polygon, corrections) = match respaced {
         Some(respaced) => placed(respaced, knots, request.placing)?,
@@ -456,11 +480,10 @@ fn approximated(
         point.distance(curve.derivatives(t, 0)[0])
     };
     let [from, to] = interval;
-    let progress = Progress::default();
     let deviation = match precision {
-        Precision::Full => MeasuredDeviation::both_ways(&polygon, curve, &parameter, &progress),
+        Precision::Full => MeasuredDeviation::both_ways(&polygon, curve, &parameter, progress),
         Precision::Goal { tolerance } => {
-            MeasuredDeviation::within(tolerance, &polygon, curve, &parameter, &progress)
+            MeasuredDeviation::within(tolerance, &polygon, curve, &parameter, progress)
         }
     }?;
     let mut found = Approximated {

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::geometry::distance::DistanceError;
 use crate::geometry::error::PolygonError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
 
@@ -54,4 +55,13 @@ pub enum ApproximationError {
     /// The vertices make no polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonError),
+}
+
+impl From<DistanceError> for ApproximationError {
+    fn from(error: DistanceError) -> Self {
+        match error {
+            DistanceError::NoPoint { parameter } => Self::NoPoint { parameter },
+            DistanceError::Cancelled => Self::Cancelled,
+        }
+    }
 }

@@ -1,22 +1,19 @@
 //! Float polygons near curves that are no float polygons, or of another degree.
 
 mod approximating;
-mod bound;
-mod deviation;
 mod equivalence;
 mod error;
 mod fitting;
 mod knots;
 mod placing;
 mod spacing;
-mod target;
 mod watched;
 
+pub use super::distance::MeasuredDeviation;
 pub use approximating::{
     Approximated, ApproximationRequest, Goal, MOST_FOR_SHAPE, MOST_SEGMENTS, approximate_between,
     approximate_by_steps, approximate_to_tolerance,
 };
-pub use deviation::MeasuredDeviation;
 pub use equivalence::{LevelComparison, LevelFeature, SideBySide};
 pub use error::ApproximationError;
 pub use fitting::{FitError, FitRequest, Fitted, fit_points};

@@ -41,6 +41,13 @@ impl ShapeCounts {
             + apart(self.torsion_extrema, most.torsion_extrema, exact[2])
     }
 
+    /// The number of features of all kinds that there are more of in another.
+    pub(super) fn lacking(self, other: Self) -> usize {
+        other.inflections.saturating_sub(self.inflections)
+            + other.extrema.saturating_sub(self.extrema)
+            + other.torsion_extrema.saturating_sub(self.torsion_extrema)
+    }
+
     /// Whether there are more features of some kind than in another.
     pub(super) fn exceeds(self, other: Self) -> bool {
         self.inflections > other.inflections

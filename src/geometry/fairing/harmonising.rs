@@ -7,6 +7,7 @@ use super::counts::{CountRequest, ShapeCounts, counted, domain, seen, significan
 use super::joint_correction::{Disturbance, correct_jointly};
 use super::problem::{Problem, Sweep};
 use super::requirement::{Check, PlaceRequest, Requirement};
+use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::end::End;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
@@ -31,7 +32,19 @@ const SWEEP: f64 = 0.1;
 const FOUND: f64 = 1.2;
 
 /// A move of the curve by less than this share of its size is near enough to fit nothing instead.
-const NEAR: f64 = 1e-2;
+const NEAR: f64 = 1e-4;
+
+/// A curve without some of the features that stand out must be so many times nearer than one with all of them.
+const LOST: f64 = 3.0;
+
+/// A fitted curve, whose vertices may lie anywhere, must be so many times nearer than the least change of them.
+const REFITTED: f64 = 2.0;
+
+/// The share of the time for the least change where a fit may follow.
+const LEAST_CHANGE: f64 = 0.6;
+
+/// The share of the time that is left for a fit; the rest proves and measures it.
+const FIT: f64 = 0.8;
 
 /// The most steps for one ε.
 const MOST_STEPS: usize = 20;
@@ -95,12 +108,14 @@ pub struct Harmonised {
     pub counts: ShapeCounts,
     /// The number of undecided places, cusps included.
     pub undecided: usize,
-    /// A bound of how far the curve moves.
+    /// How far the curve moves.
     pub deviation: f64,
+    /// Whether that is a bound; otherwise samples show it.
+    pub bounded: bool,
     /// The number of Gauss–Newton steps in all.
     pub iterations: usize,
-    /// Whether the curve was fitted to the old one instead, because the least change did not do; the deviation
-    /// is then measured at samples.
+    /// Whether the curve was fitted to the old one instead, because the least change did not do or moves it
+    /// farther.
     pub refitted: bool,
 }
 
@@ -148,11 +163,42 @@ pub enum HarmonyError {
 /// Minimises Σ(ΔᵐK)² ℓ² + w Σ(Δ² log leg)² + ε Σ|P − P⁰|²/ℓ² with the ends held, K the discrete
 /// curvature and ℓ the mean leg (in space with the torsion angles), for falling ε until the
 /// features are those asked for, then for the largest such ε; m = 2 and 3 are tried, and the smaller
-/// move is kept. Rational curves keep their weights.
+/// move is kept. Rational curves keep their weights. Where that moves a planar curve by more than 1e-4 of its size, or
+/// does not do, a curve with these features is fitted to it, and the nearer one is kept.
 ///
 /// # Errors
 /// [`HarmonyError`].
 pub fn harmonise(
+    polygon: &FloatPolygon,
+    harmony: &Harmony,
+    progress: &Progress,
+) -> Result<Harmonised, HarmonyError> {
+    let Some(kept) = fit_conditions(polygon, harmony) else {
+        return least_change(polygon, harmony, progress);
+    };
+    let mut best = least_change(polygon, harmony, &progress.hurried(LEAST_CHANGE))?;
+    let is_near = best.deviation <= NEAR * polygon.size();
+    if best.reached && is_near && best.lacking() == 0 {
+        return Ok(best);
+    }
+    let iterations = best.iterations;
+    let fitted = fitted(polygon, harmony, kept, &best, progress);
+    if !fitted.is_empty() {
+        best.measure(polygon, progress);
+    }
+    for fitted in fitted {
+        if fitted.rank() < best.rank() {
+            best = fitted;
+        }
+    }
+    Ok(Harmonised { iterations, ..best })
+}
+
+/// Move vertices as little as possible, as [`harmonise`] does, and fit nothing instead.
+///
+/// # Errors
+/// [`HarmonyError`].
+pub fn least_change(
     polygon: &FloatPolygon,
     harmony: &Harmony,
     progress: &Progress,
@@ -196,13 +242,18 @@ pub fn harmonise(
         counts: found.counts,
         undecided: found.undecided,
         deviation: 0.0,
+        bounded: true,
         iterations: 0,
         refitted: false,
     };
     if unchanged.reached {
         return Ok(unchanged);
     }
-    let problem = |keeps_speed| problem(polygon, stretch, harmony, keeps_speed);
+    let problem = |keeps_speed| {
+        let mut problem = problem(polygon, stretch, harmony, keeps_speed);
+        problem.end_with(progress);
+        problem
+    };
     let first = problem(false);
     if first.freedoms() == 0 {
         return Err(HarmonyError::NothingMoves);
@@ -239,15 +290,35 @@ pub fn harmonise(
         unless_late(search.run_all([0.5, 0.5]))?;
     }
     let iterations = search.iterations;
-    let mut best = search.best.harmonised;
-    let is_near = best.reached && best.deviation <= NEAR * polygon.size();
-    if !is_near
-        && let Some(refitted) = refitted(polygon, harmony, request, &requirements, progress)
-        && (!best.reached || refitted.deviation < best.deviation)
-    {
-        best = refitted;
-    }
+    let best = search.best.harmonised;
     Ok(Harmonised { iterations, ..best })
+}
+
+impl Harmonised {
+    /// Distance from the request: a smaller one is better.
+    fn rank(&self) -> (bool, f64) {
+        let price = if self.refitted { REFITTED } else { 1.0 };
+        (!self.reached, price * self.priced(self.deviation))
+    }
+
+    /// A length that measures a change, the longer if features are lost.
+    fn priced(&self, length: f64) -> f64 {
+        let price = if self.lacking() > 0 { LOST } else { 1.0 };
+        price * length
+    }
+
+    /// The number of requested features that the curve has too few of.
+    fn lacking(&self) -> usize {
+        self.counts.lacking(self.request)
+    }
+
+    /// Measure how far the curve is from the one that it was.
+    fn measure(&mut self, polygon: &FloatPolygon, progress: &Progress) {
+        let measured = MeasuredDeviation::between(&self.polygon, polygon, progress);
+        if let Some(measured) = measured.ok().filter(|it| it.bounded) {
+            self.deviation = self.deviation.min(measured.largest);
+        }
+    }
 }
 
 /// What must hold, the deviation apart.
@@ -308,14 +379,8 @@ fn problem<'a>(
     problem
 }
 
-/// Fit a planar curve as a whole to the old one, if it then has the features asked for and does not move too far.
-fn refitted(
-    polygon: &FloatPolygon,
-    harmony: &Harmony,
-    request: CountRequest,
-    requirements: &[Requirement],
-    progress: &Progress,
-) -> Option<Harmonised> {
+/// Up to which derivative each end stays where a curve may be fitted to the old one; `None` where it may not.
+fn fit_conditions(polygon: &FloatPolygon, harmony: &Harmony) -> Option<[Option<usize>; 2]> {
     let is_whole = harmony.stretch.is_none() && harmony.locked.is_empty();
     if !is_whole || !polygon.is_planar() || polygon.weights().is_some() || polygon.degree() < 3 {
         return None;
@@ -328,36 +393,58 @@ fn refitted(
         Held::Slope | Held::All => None,
     };
     let [start, end] = harmony.ends.map(order);
-    let kept = [start?, end?];
+    Some([start?, end?])
+}
+
+/// Curves that are fitted as a whole to the old one, have the features asked for and do not move too far.
+fn fitted(
+    polygon: &FloatPolygon,
+    harmony: &Harmony,
+    kept: [Option<usize>; 2],
+    known: &Harmonised,
+    progress: &Progress,
+) -> Vec<Harmonised> {
     let most = harmony.largest_deviation.unwrap_or(f64::INFINITY);
-    let tried = |inflections: Option<usize>| {
+    let tried = |inflections: Option<usize>, share: f64| {
         let asked = Refit {
-            extrema: request.counts.extrema,
+            extrema: known.request.extrema,
             inflections,
             kept,
         };
-        let (refitted, deviation) = refit(polygon, &asked, progress)?;
-        let refitted = with_ends(refitted, requirements, progress);
+        let refitted = refit(polygon, &asked, &progress.hurried(share))?;
+        let is_limit = |it: &Requirement| matches!(it, Requirement::Limit { .. });
+        let requirements = known.requirements.iter().filter(|it| !is_limit(it));
+        let requirements: Vec<Requirement> = requirements.cloned().collect();
+        let refitted = with_ends(refitted, &requirements, progress);
         let features = Features::proved(&refitted, |_| !progress.is_cancelled())?;
         let found = counted(&features, true, None);
-        let limit = limit(deviation, most);
-        let requirements = [requirements, &[limit]].concat();
+        let measured = MeasuredDeviation::between(&refitted, polygon, progress).ok()?;
+        let limit = limit(measured.largest, most);
+        let requirements = [requirements, vec![limit]].concat();
         let check = Check::with_features(&requirements, &refitted, Some(&features));
         check.holds.then_some(Harmonised {
             polygon: refitted,
             reached: true,
             requirements,
-            request: request.counts,
+            request: known.request,
             counts: found.counts,
             undecided: found.undecided,
-            deviation,
+            deviation: measured.largest,
+            bounded: measured.bounded,
             iterations: 0,
             refitted: true,
         })
     };
-    // Where no number of inflections is given, fewer will do.
-    let first = tried(harmony.inflections);
-    first.or_else(|| tried(Some(request.counts.inflections)))
+    // Where no number of inflections is given, fewer will do if those that stand out do not.
+    let own = Some(known.request.inflections);
+    let tries = match harmony.inflections {
+        Some(_) => vec![(own, FIT)],
+        None => vec![(own, 0.5 * FIT), (None, FIT)],
+    };
+    let found = tries
+        .into_iter()
+        .filter_map(|(inflections, share)| tried(inflections, share));
+    found.collect()
 }
 
 /// Give a fitted curve just the ends that are required; as it was if it has them, or they cannot be met.
@@ -520,7 +607,8 @@ impl Candidate {
     /// Distance from the request; the largest move decides between equals.
     fn rank(&self) -> (bool, bool, usize, f64) {
         let missed = !self.harmonised.reached;
-        (missed, !self.holds_apart, self.excess, self.largest_move)
+        let change = self.harmonised.priced(self.largest_move);
+        (missed, !self.holds_apart, self.excess, change)
     }
 }
 
@@ -695,6 +783,7 @@ impl Search<'_> {
                 counts: proved.counts,
                 undecided: proved.undecided,
                 deviation,
+                bounded: true,
                 iterations: self.iterations,
                 refitted: false,
             },

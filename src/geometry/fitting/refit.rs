@@ -26,13 +26,12 @@ pub(in crate::geometry) struct Refit {
 
 /// Find a planar curve near another one with so many extrema, the same degree and number of vertices, proved.
 ///
-/// Returns it with the largest distance of the old curve from it, at samples. `None` if none is found, or the
-/// computation was cancelled.
+/// `None` if none is found, or the computation was cancelled.
 pub(in crate::geometry) fn refit(
     polygon: &FloatPolygon,
     asked: &Refit,
     progress: &Progress,
-) -> Option<(FloatPolygon, f64)> {
+) -> Option<FloatPolygon> {
     let segments = polygon.segments();
     let samples = SAMPLES * segments + usize::from(!polygon.is_periodic());
     let place = |sample: usize| polygon.point(sample as f64 / SAMPLES as f64).truncate();
@@ -74,8 +73,7 @@ pub(in crate::geometry) fn refit(
     let vertices = vertices.map(|vertex| (unit * *vertex + middle).extend(0.0));
     let vertices: Vec<DVec3> = vertices.collect();
     let degree = polygon.degree();
-    let polygon = FloatPolygon::new(degree, vertices, None, polygon.is_periodic()).ok()?;
-    Some((polygon, unit * best.largest))
+    FloatPolygon::new(degree, vertices, None, polygon.is_periodic()).ok()
 }
 
 /// The conditions at the ends of an open curve.

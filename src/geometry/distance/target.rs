@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::error::ApproximationError;
+use super::error::DistanceError;
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::jet::Jet;
 use crate::geometry::nearest::refined_parameter;
@@ -36,12 +36,12 @@ impl<'a> Target<'a> {
     /// are points.
     ///
     /// # Errors
-    /// [`ApproximationError::NoPoint`] where the curve has no point.
+    /// [`DistanceError::NoPoint`] where the curve has no point.
     pub(super) fn new(
         curve: &'a dyn Differentiable,
         parameters: impl Iterator<Item = f64>,
         beyond: [Vec<f64>; 2],
-    ) -> Result<Self, ApproximationError> {
+    ) -> Result<Self, DistanceError> {
         let sample = |parameter: f64| (parameter, curve.derivatives(parameter, 0)[0]);
         let [before, after] = beyond.map(|parameters| {
             let samples = parameters.into_iter().map(sample);
@@ -52,7 +52,7 @@ impl<'a> Target<'a> {
         for parameter in parameters {
             let (parameter, point) = sample(parameter);
             if !point.is_finite() {
-                return Err(ApproximationError::NoPoint { parameter });
+                return Err(DistanceError::NoPoint { parameter });
             }
             samples.push((parameter, point));
         }
@@ -72,6 +72,10 @@ impl<'a> Target<'a> {
     /// The distance of a point from the curve, and the parameter of the nearest point there; `near` is a
     /// parameter in its neighbourhood.
     pub(super) fn nearest(&self, point: DVec3, near: f64) -> (f64, f64) {
+        // Nothing is nearer to such a point than anything else.
+        if !point.is_finite() {
+            return (f64::NAN, near);
+        }
         let last = self.samples.len() - 1;
         let start = self.samples.partition_point(|(t, _)| *t < near);
         let mut best = self.refined(point, start.min(last));

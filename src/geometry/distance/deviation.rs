@@ -1,8 +1,8 @@
 //! Distance of a curve from the one that it approximates.
 
 use super::bound::{Bound, Wanted};
-use super::error::ApproximationError;
-use super::spacing;
+use super::error::DistanceError;
+use super::places;
 use super::target::Target;
 use crate::geometry::differentiable::Differentiable;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -32,7 +32,7 @@ pub struct MeasuredDeviation {
     /// Whether that is a bound: nothing between samples is missed.
     pub bounded: bool,
     /// The largest distance that was found.
-    pub(super) found: f64,
+    pub(in crate::geometry) found: f64,
     /// The parameter u where it is.
     pub u: f64,
     /// The parameter of the other curve's point that is nearest there.
@@ -47,15 +47,15 @@ impl MeasuredDeviation {
     /// as `reach` if it has points there.
     ///
     /// # Errors
-    /// [`ApproximationError::NotFinite`] where the other curve has no points;
-    /// [`ApproximationError::Cancelled`] soon after a cancellation.
+    /// [`DistanceError::NoPoint`] where the other curve has no points;
+    /// [`DistanceError::Cancelled`] soon after a cancellation.
     pub fn measure(
         polygon: &FloatPolygon,
         curve: &dyn Differentiable,
         parameter: &dyn Fn(f64) -> f64,
         reach: [f64; 2],
         progress: &Progress,
-    ) -> Result<Self, ApproximationError> {
+    ) -> Result<Self, DistanceError> {
         Sides::new(polygon, curve, parameter, reach)?.one_way(progress)
     }
 
@@ -64,12 +64,12 @@ impl MeasuredDeviation {
     ///
     /// # Errors
     /// As [`MeasuredDeviation::measure`].
-    pub(super) fn both_ways(
+    pub(in crate::geometry) fn both_ways(
         polygon: &FloatPolygon,
         curve: &dyn Differentiable,
         parameter: &dyn Fn(f64) -> f64,
         progress: &Progress,
-    ) -> Result<Self, ApproximationError> {
+    ) -> Result<Self, DistanceError> {
         let interval = [0, polygon.segments()].map(|u| parameter(u as f64));
         let sides = Sides::new(polygon, curve, parameter, interval)?;
         let sampled = sides.both_ways(progress)?;
@@ -97,18 +97,32 @@ impl MeasuredDeviation {
         })
     }
 
+    /// Measure how far the curves of two polygons are from each other that run beside each other at equal shares of
+    /// their parameters.
+    ///
+    /// # Errors
+    /// [`DistanceError::Cancelled`].
+    pub(in crate::geometry) fn between(
+        polygon: &FloatPolygon,
+        other: &FloatPolygon,
+        progress: &Progress,
+    ) -> Result<Self, DistanceError> {
+        let rate = other.segments() as f64 / polygon.segments() as f64;
+        Self::both_ways(polygon, other, &|u| u * rate, progress)
+    }
+
     /// Tell whether two curves are as near as a tolerance, both ways: if not, by a distance that is reached, and that
     /// need not be the largest.
     ///
     /// # Errors
     /// As [`MeasuredDeviation::measure`].
-    pub(super) fn within(
+    pub(in crate::geometry) fn within(
         tolerance: f64,
         polygon: &FloatPolygon,
         curve: &dyn Differentiable,
         parameter: &dyn Fn(f64) -> f64,
         progress: &Progress,
-    ) -> Result<Self, ApproximationError> {
+    ) -> Result<Self, DistanceError> {
         let wanted = Wanted::Within { tolerance };
         let bound = Bound::of(polygon, curve, parameter, wanted);
         let decided = bound.filter(|it| it.at_least > tolerance || it.at_most <= tolerance);
@@ -151,7 +165,7 @@ impl<'a> Sides<'a> {
         curve: &'a dyn Differentiable,
         parameter: &'a dyn Fn(f64) -> f64,
         reach: [f64; 2],
-    ) -> Result<Self, ApproximationError> {
+    ) -> Result<Self, DistanceError> {
         let segments = polygon.segments();
         let place = |index: usize| {
             let u = index as f64 / SAMPLES as f64;
@@ -162,7 +176,7 @@ impl<'a> Sides<'a> {
         let share = segments as f64 / count as f64;
         let [from, to] = [0, segments].map(|u| parameter(u as f64));
         // Where the other curve changes at once, even samples do not show where it is.
-        let mut parameters: Vec<f64> = spacing::places(curve, [from, to]);
+        let mut parameters: Vec<f64> = places::places(curve, [from, to]);
         parameters.extend((0..=count).map(|index| parameter(index as f64 * share)));
         parameters.sort_by(f64::total_cmp);
         parameters.dedup();
@@ -199,7 +213,7 @@ impl<'a> Sides<'a> {
     }
 
     /// Measure how far the polygon's curve is from the other one.
-    fn one_way(&self, progress: &Progress) -> Result<MeasuredDeviation, ApproximationError> {
+    fn one_way(&self, progress: &Progress) -> Result<MeasuredDeviation, DistanceError> {
         let places: Vec<f64> = self.places.iter().map(|[u, _]| *u).collect();
         let distance = |u: f64| self.off_there(u).0;
         let samples = Samples::new(&places, &distance, progress)?;
@@ -215,7 +229,7 @@ impl<'a> Sides<'a> {
     }
 
     /// Measure how far each curve is from the other one at most.
-    fn both_ways(&self, progress: &Progress) -> Result<MeasuredDeviation, ApproximationError> {
+    fn both_ways(&self, progress: &Progress) -> Result<MeasuredDeviation, DistanceError> {
         let here = self.one_way(progress)?;
         let places: Vec<f64> = self.places.iter().map(|[_, t]| *t).collect();
         let distance = |t: f64| self.off_here(t).0;
@@ -246,19 +260,19 @@ impl<'a> Samples<'a> {
         places: &'a [f64],
         distance: &'a dyn Fn(f64) -> f64,
         progress: &Progress,
-    ) -> Result<Self, ApproximationError> {
+    ) -> Result<Self, DistanceError> {
         let going_on = |place: &f64| (!progress.is_cancelled()).then_some(*place);
         let distances = places.iter().map(|place| Some(distance(going_on(place)?)));
         let distances: Option<Vec<f64>> = distances.collect();
         Ok(Self {
             places,
             distance,
-            distances: distances.ok_or(ApproximationError::Cancelled)?,
+            distances: distances.ok_or(DistanceError::Cancelled)?,
         })
     }
 
     /// Find the largest distance, and where it is, between the samples too if it may be above a `known` one.
-    fn largest(&self, known: f64, progress: &Progress) -> Result<(f64, f64), ApproximationError> {
+    fn largest(&self, known: f64, progress: &Progress) -> Result<(f64, f64), DistanceError> {
         let larger = |known: (f64, f64), other: (f64, f64)| {
             if other.1 > known.1 { other } else { known }
         };
@@ -273,7 +287,7 @@ impl<'a> Samples<'a> {
         let mut found = sampled;
         for (index, here) in self.distances.iter().enumerate() {
             if progress.is_cancelled() {
-                return Err(ApproximationError::Cancelled);
+                return Err(DistanceError::Cancelled);
             }
             let beside = [index.saturating_sub(1), (index + 1).min(last)];
             let [before, after] = beside.map(|beside| self.distances[beside]);
