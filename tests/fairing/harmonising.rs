@@ -292,8 +292,11 @@ fn the_best_found_comes_close_where_what_is_asked_is_out_of_reach() {
     );
 }
 
+/// The coordinates of vertices.
+type Vertices = [(f64, f64)];
+
 /// Polygons at random, with the numbers of extrema for which a curve is fitted to them.
-const TANGLED: [(usize, usize, &[(f64, f64)]); 2] = [
+const TANGLED: [(usize, usize, &Vertices); 2] = [
     (
         5,
         12,
