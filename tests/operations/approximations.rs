@@ -420,7 +420,7 @@ fn a_search_whose_time_is_up_tells_the_best_so_far() {
         ("tolerance", "1e-13"),
         ("levels", "4"),
     ];
-    for limit in ["1.5", "0.000001"] {
+    for limit in ["1.5", "1e-6"] {
         let given = [&slow[..], &[("time-limit", limit)]].concat();
         let (_, outcome) = run(&given).expect("it can run");
         let told = outcome.remarks.join(". ");
