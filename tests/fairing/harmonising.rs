@@ -1,6 +1,6 @@
 //! Harmonising noisy polygons of curves with known features.
 
-use batten::geometry::fairing::harmonising::{Harmony, Held, harmonise};
+use batten::geometry::fairing::harmonising::{Harmony, Held, harmonise, least_change};
 use batten::geometry::features::{Feature, Features};
 use batten::geometry::{FloatPolygon, Progress};
 use glam::DVec3;
@@ -113,7 +113,7 @@ fn harmonise_many(shape: Shape, trials: usize, rational: bool) -> (usize, f64) {
     let (extrema, inflections) = shape.features();
     for _ in 0..trials {
         let (polygon, noise) = noisy(shape, &mut random, false, rational);
-        let found = harmonise(&polygon, &asked(extrema, inflections), &Progress::default());
+        let found = least_change(&polygon, &asked(extrema, inflections), &Progress::default());
         let found = found.expect("a result");
         check_ends(&polygon, &found.polygon);
         assert_eq!(found.polygon.weights(), polygon.weights());
