@@ -172,7 +172,7 @@ fn a_search_for_any_curve_ends_in_time_with_the_best_so_far() {
     let remarks = outcome.remarks.join("\n");
     assert!(!outcome.reached);
     assert!(
-        remarks.contains("The time limit of 0.000001 s ended the search"),
+        remarks.contains("The time limit of 1e-6 s ended the search"),
         "{remarks}"
     );
 }
