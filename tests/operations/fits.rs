@@ -264,16 +264,16 @@ fn outline(last_repeats: bool) -> Vec<DVec3> {
 #[test]
 fn closed_points_are_split_at_their_corners() {
     for last_repeats in [false, true] {
-        let points = outline(last_repeats);
         let values = vec![
             ("periodic", Value::Switch(true)),
             ("split-corners", Value::Switch(true)),
         ];
-        let found = report_of(points, values).expect("two fits");
+        let found = report_of(outline(last_repeats), values.clone()).expect("two fits");
         assert!(found.reached, "{}", found.text());
-        let json = serde_json::to_value(&found).expect("JSON");
-        let curves = json["features_after"].as_array().expect("the curves").len();
-        assert_eq!(curves, 2, "{json}");
+        let input = Operands::new(&Document::default(), []).expect("no curves");
+        let input = input.with_points(outline(last_repeats));
+        let values = operation("fit").values(&input, values).expect("values");
+        assert_eq!(curves(&input, &values), 2);
     }
     let found = report_of(outline(false), vec![("periodic", Value::Switch(true))]).expect("a fit");
     assert!(

@@ -114,6 +114,7 @@ fn assert_harmless(seed: u64) {
                         | OperationError::Edit(EditError::BadTarget)
                         | OperationError::Harmony(_)
                         | OperationError::OutOfRange { .. }
+                        | OperationError::NotBySteps { .. }
                         | OperationError::Bridge(_)
                         | OperationError::Approximation(_)
                         | OperationError::Fit(_)

@@ -130,10 +130,14 @@ fn bounds_words(from: Bound<String>, to: Bound<String>) -> Option<String> {
     })
 }
 
-/// Write a number as briefly as it can be read back.
+/// Whole numbers of no more digits are written in full.
+const LONGEST_COUNT: usize = 12;
+
+/// Write a number as briefly as it can be read back; counts in full.
 pub fn brief(number: f64) -> String {
     let (plain, power) = (format!("{number}"), format!("{number:e}"));
-    if plain.len() <= power.len() + 3 {
+    let is_count = number.fract() == 0.0 && plain.len() <= LONGEST_COUNT;
+    if is_count || plain.len() <= power.len() + 3 {
         plain
     } else {
         power
