@@ -8,18 +8,26 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// Halvings of a segment: a part as short as this turns as its ends tell, also at a cusp.
 const HALVINGS: u32 = 40;
 
-/// Hold the direction angle of a planar curve, continuous along it.
+/// Derivatives below this share of a segment's largest are rounding: they have no direction.
+const ROUNDING: f64 = 1e-13;
+
+/// Legs below this share of the coordinates are rounding too.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
+
+/// Hold the direction angle of a planar polynomial curve, continuous along it.
 ///
-/// Segments are halved until the hodograph's Bézier polygon lies within a right angle, so that no turn is missed,
-/// however tight. The weights of rational curves do not count.
-#[derive(Clone, Debug)]
-pub struct Turning {
+/// Segments are halved until the hodograph's Bézier polygon lies within a right angle of its beginning, so that no
+/// turn is missed, however tight. Where the curve stops it goes on in the direction before.
+pub struct Turning<'a> {
+    polygon: &'a FloatPolygon,
     parts: Vec<Part>,
-    total: f64,
+    /// The direction and the angle at the end.
+    last: DVec2,
+    end: f64,
 }
 
 /// A part of the curve that turns by less than a right angle.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 struct Part {
     from: f64,
     direction: DVec2,
@@ -27,70 +35,89 @@ struct Part {
     angle: f64,
 }
 
-impl Turning {
-    /// Follow the direction of a curve from u = 0, where the angle is that of the direction, in radians.
-    pub fn new(polygon: &FloatPolygon) -> Self {
+impl<'a> Turning<'a> {
+    /// Follow the direction of a curve from u = 0 on. Weights do not count.
+    pub fn new(polygon: &'a FloatPolygon) -> Self {
         let mut turning = Self {
+            polygon,
             parts: Vec::new(),
-            total: 0.0,
+            last: DVec2::X,
+            end: 0.0,
         };
-        let mut last = DVec2::X;
         for segment in 0..polygon.segments() {
-            let bezier = segment_bezier(polygon, segment);
-            let legs = bezier.windows(2);
-            let legs: Vec<DVec2> = legs
-                .map(|leg| DVec2::new(leg[1].x - leg[0].x, leg[1].y - leg[0].y))
-                .collect();
-            turning.follow(legs, [segment as f64, 1.0], HALVINGS, &mut last);
+            turning.follow(hodograph(polygon, segment), segment as f64, 1.0, HALVINGS);
         }
         turning
     }
 
     /// The angle from the first direction to the last one, in radians: 2π for a periodic curve that goes round once.
     pub fn total(&self) -> f64 {
-        self.total - self.parts.first().map_or(0.0, |part| part.angle)
+        self.end - self.begin()
     }
 
-    /// The angle of the direction at a parameter where it is `direction`.
-    pub fn angle(&self, u: f64, direction: DVec2) -> f64 {
+    /// The angle of the direction at a parameter, in radians; that at u = 0 is its angle to the x axis. A periodic
+    /// curve goes on beyond its last parameter.
+    pub fn angle(&self, u: f64) -> f64 {
+        let length = self.polygon.segments() as f64;
+        let rounds = match self.polygon.is_periodic() {
+            true => (u / length).floor(),
+            false => 0.0,
+        };
+        let u = u - rounds * length;
         let behind = self.parts.partition_point(|part| part.from <= u);
+        let direction = self.polygon.jet(u).first.truncate();
         let part = self.parts.get(behind.saturating_sub(1));
-        part.map_or(0.0, |part| part.angle + angle(part.direction, direction))
+        let angle = part.map_or(0.0, |part| part.angle + angle(part.direction, direction));
+        angle + rounds * self.total()
     }
 
-    fn follow(
-        &mut self,
-        hodograph: Vec<DVec2>,
-        [from, width]: [f64; 2],
-        left: u32,
-        last: &mut DVec2,
-    ) {
-        let mut directions = hodograph.iter().filter(|it| **it != DVec2::ZERO);
+    fn begin(&self) -> f64 {
+        self.parts.first().map_or(0.0, |part| part.angle)
+    }
+
+    fn follow(&mut self, hodograph: Vec<DVec2>, from: f64, width: f64, halvings: u32) {
+        let directed = |it: &&DVec2| it.abs().max_element() > ROUNDING;
+        let mut directions = hodograph.iter().filter(directed);
         let Some(first) = directions.next().copied() else {
             return;
         };
-        let end = hodograph.iter().rev().find(|it| **it != DVec2::ZERO);
+        let end = hodograph.iter().rev().find(directed);
         let end = end.copied().unwrap_or(first);
         let is_calm = directions.all(|it| first.dot(*it) > 0.0);
-        if !is_calm && left > 0 {
+        if !is_calm && halvings > 0 {
             let [before, behind] = halves(hodograph);
             let half = 0.5 * width;
-            self.follow(before, [from, half], left - 1, last);
-            self.follow(behind, [from + half, half], left - 1, last);
+            self.follow(before, from, half, halvings - 1);
+            self.follow(behind, from + half, half, halvings - 1);
             return;
         }
-        if self.parts.is_empty() {
-            self.total = first.to_angle();
-        } else {
-            self.total += angle(*last, first);
-        }
+        self.end += angle(self.last, first);
         self.parts.push(Part {
             from,
             direction: first,
-            angle: self.total,
+            angle: self.end,
         });
-        self.total += angle(first, end);
-        *last = end;
+        self.end += angle(first, end);
+        self.last = end;
+    }
+}
+
+/// The Bézier polygon of a segment's derivative, its largest coordinate 1.
+fn hodograph(polygon: &FloatPolygon, segment: usize) -> Vec<DVec2> {
+    let bezier = segment_bezier(polygon, segment);
+    let points = bezier.iter().map(|point| point.truncate().truncate());
+    let points: Vec<DVec2> = points.collect();
+    let legs = points.windows(2).map(|leg| leg[1] - leg[0]);
+    let legs: Vec<DVec2> = legs.collect();
+    let size = |vectors: &[DVec2]| {
+        let sizes = vectors.iter().map(|it| it.abs().max_element());
+        sizes.fold(f64::MIN_POSITIVE, f64::max)
+    };
+    let (largest, rounding) = (size(&legs), ROUNDED * size(&points));
+    // Where the curve stops, legs are what rounding leaves.
+    match largest > rounding {
+        true => legs.into_iter().map(|leg| leg / largest).collect(),
+        false => Vec::new(),
     }
 }
 
@@ -158,6 +185,47 @@ mod tests {
                 found > 6.0 && (found - sampled).abs() < 1e-9,
                 "{size}: {found} {sampled}"
             );
+        }
+    }
+
+    #[test]
+    fn stops_cusps_and_tiny_curves_are_followed() {
+        let total = |vertices: &[(f64, f64)]| {
+            let polygon = FloatPolygon::planar(5, vertices).expect("a polygon");
+            Turning::new(&polygon).total()
+        };
+        let arc = |size: f64| {
+            let vertex = |it: i32| {
+                let angle = TAU * f64::from(it) / 16.0;
+                (size * angle.cos(), size * angle.sin())
+            };
+            (0..21).map(vertex).collect::<Vec<(f64, f64)>>()
+        };
+        for size in [1e-300, 1e-200, 1.0, 1e90] {
+            assert!((total(&arc(size)) - TAU).abs() < 1e-9, "{size}");
+        }
+        // Six vertices in one point stop the curve; all in one leave it without a direction.
+        let mut stopped = arc(1.0);
+        stopped.splice(7..13, [stopped[9]; 6]);
+        assert!((total(&stopped) - TAU).abs() < 1.0, "{}", total(&stopped));
+        assert_eq!(total(&[(1.0, 2.0); 9]), 0.0);
+        // There and back.
+        let back = [0.0, 1.0, 2.0, 3.0, 3.0, 2.0, 1.0, 0.0].map(|x| (x, 0.0));
+        assert!((total(&back).abs() - TAU / 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn angles_go_on_around_a_periodic_curve() {
+        let vertices = (0..8).map(|it| {
+            let angle = TAU * f64::from(it) / 8.0;
+            DVec2::from_angle(angle).extend(0.0)
+        });
+        let polygon = FloatPolygon::new(5, vertices.collect(), None, true).expect("a polygon");
+        let turning = Turning::new(&polygon);
+        for u in [0.0, 0.3, 4.0, 7.9] {
+            let steps = turning.angle(u + 8.0) - turning.angle(u);
+            assert!((steps - TAU).abs() < 1e-9, "{u}");
+            assert!((turning.angle(u + 1.0) - turning.angle(u) - TAU / 8.0).abs() < 1e-9);
         }
     }
 }

@@ -617,7 +617,11 @@ impl Fit<'_> {
         if level.largest > EXACT || !self.prepared.ends.is_empty() {
             return None;
         }
-        let features = Features::proved(&level.polygon()?, |_| !self.progress.is_cancelled())?;
+        let polygon = level.polygon()?;
+        if self.task(0, None).goes_astray(&polygon, &level) {
+            return None;
+        }
+        let features = Features::proved(&polygon, |_| !self.progress.is_cancelled())?;
         let [extrema, inflections] =
             [Feature::CurvatureExtremum, Feature::Inflection].map(|it| features.count(it));
         let suits = match self.asked.extrema {

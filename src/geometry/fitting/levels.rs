@@ -1,7 +1,5 @@
 //! Fits with a wished number of extrema, from few vertices to many.
 
-use std::f64::consts::PI;
-
 use glam::{DVec2, DVec3};
 
 use super::descent::descend;
@@ -10,7 +8,8 @@ use super::problem::{Data, PlacedCurve, Problem, Start};
 use super::sign_runs::SignRuns;
 use super::slope_coefficients::SlopeTables;
 use super::splines::Splines;
-use crate::geometry::features::{Feature, Features, Turning};
+use super::winding::winds;
+use crate::geometry::features::{Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
@@ -52,7 +51,7 @@ const STALE: usize = 3;
 const EXACT: f64 = 1e-9;
 
 /// A tolerance that is missed by less than this factor is made a condition, for so many steps.
-const CLOSE: f64 = 2.5;
+const CLOSE: f64 = 4.0;
 const WITHIN_STEPS: usize = 30;
 
 /// Steps from a level that is fitted to more points, or with more vertices and fewer extrema.
@@ -74,13 +73,6 @@ const LOOP: f64 = 2.0;
 
 /// The chords by which the arc between two points is measured.
 const ARC_PARTS: usize = 8;
-
-/// A curve that turns so much more or less than the polyline of its points, in radians, winds: half a turn too much
-/// for a curve near them, and below the whole turn of the smallest loop.
-const WINDING: f64 = 1.5 * PI;
-
-/// Where the polyline turns by more than this at a point, in radians, its turns may be noise and are not added up.
-const CLEAN: f64 = 1.0;
 
 /// Multipliers below this share of the largest do not count as pressing where a run may be released, and runs of
 /// them with a gap of less than so many members are one.
@@ -432,7 +424,7 @@ impl<'a> Task<'a> {
         let [rms, largest] = problem.errors(&descended.start.curve);
         let mut level = Level {
             splines: problem.splines,
-            holds: descended.holds && !loops(problem, &descended.start),
+            holds: descended.holds,
             start: descended.start,
             rms,
             largest,
@@ -442,66 +434,21 @@ impl<'a> Task<'a> {
         level
     }
 
-    /// Whether the curve turns as its points do, so that no loop hides between them.
-    fn winds(&self, polygon: &FloatPolygon, level: &Level) -> bool {
-        let turning = Turning::new(polygon);
-        let splines = &level.splines;
-        let curve = &level.start.curve;
-        let heavy = self
-            .data
-            .points
-            .iter()
-            .zip(&curve.places)
-            .zip(self.data.counts);
-        let heavy = heavy.filter(|(_, counts)| **counts);
-        let heavy: Vec<(DVec2, f64)> = heavy.map(|((point, place), _)| (*point, *place)).collect();
-        // How far the curve is turned against each chord.
-        let (mut turned, mut before) = (Vec::new(), None);
-        let (mut sharp, mut angle, mut rounds) = (Vec::new(), 0.0, 0.0);
-        for pair in heavy.windows(2) {
-            let [(from, begin), (to, mut end)] = [pair[0], pair[1]];
-            let chord = to - from;
-            if chord == DVec2::ZERO {
-                continue;
-            }
-            let turn = before.map_or(chord.to_angle(), |before: DVec2| before.angle_to(chord));
-            angle += turn;
-            sharp.push(before.is_some() && turn.abs() > CLEAN);
-            before = Some(chord);
-            let wraps = self.periodic && end + 0.5 * splines.end() < begin;
-            if wraps {
-                end += splines.end();
-            }
-            let middle = 0.5 * (begin + end);
-            let (over, middle) = match middle >= splines.end() && self.periodic {
-                true => (turning.total(), middle - splines.end()),
-                false => (0.0, middle),
-            };
-            let [_, tangent] = splines.jet(&curve.vertices, middle);
-            turned.push(rounds + over + turning.angle(middle, tangent) - angle);
-            if wraps {
-                rounds += turning.total();
-            }
-        }
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        let mut last = None;
-        turned.into_iter().zip(sharp).any(|(turned, is_sharp)| {
-            if is_sharp {
-                (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
-            }
-            (low, high) = (low.min(turned), high.max(turned));
-            let jumps = last.is_some_and(|last: f64| (turned - last).abs() > WINDING);
-            last = Some(turned);
-            jumps || high - low > WINDING
-        })
+    /// Whether the curve goes astray between its points: by a loop, or by turns that they do not show.
+    pub(super) fn goes_astray(&self, polygon: &FloatPolygon, level: &Level) -> bool {
+        let places = &level.start.curve.places;
+        let points = self.data.points.iter().copied().zip(places.iter().copied());
+        let heavy = points.zip(self.data.counts).filter(|(_, counts)| **counts);
+        let heavy: Vec<(DVec2, f64)> = heavy.map(|(placed, _)| placed).collect();
+        loops(&self.problem(level.splines.count), &level.start) || winds(polygon, &heavy)
     }
 
-    /// Whether the curve has just the features asked for, and turns as its points do.
+    /// Whether the curve has just the features asked for, and does not go astray.
     fn is_proved(&self, level: &Level) -> bool {
         let Some(polygon) = level.polygon() else {
             return false;
         };
-        if self.winds(&polygon, level) {
+        if self.goes_astray(&polygon, level) {
             return false;
         }
         let features = Features::proved(&polygon, |_| !self.progress.is_cancelled());

@@ -23,6 +23,7 @@ mod refit;
 mod sign_runs;
 mod slope_coefficients;
 mod splines;
+mod winding;
 
 pub use counted_points::CountedPoints;
 pub use error::FitError;
