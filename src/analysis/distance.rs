@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::analysis::item::Item;
-use crate::geometry::approximation::MeasuredDeviation;
+use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::{Differentiable, FloatPolygon, Progress};
 
 /// The distance of a curve from another one, or of points from a curve: true distances, to the nearest point.

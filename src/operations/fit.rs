@@ -4,26 +4,22 @@ use glam::{DVec2, DVec3};
 
 use super::amount::Amount;
 use super::error::OperationError;
+use super::fit_piece::{Piece, features, pieces};
 use super::inputs::Inputs;
 use super::lists::{given, given_count};
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, POSITIVE, Parameter};
-use super::targets::{SHARE_OF_SIZE, place_of};
 use super::time_limit::{TIME_LIMIT, best_so_far, limited};
 use super::value::Value;
 use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{self, FitRequest, fit_points};
-use crate::geometry::end_correction::EndTarget;
-use crate::geometry::fairing::counts::CountRequest;
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::fitting::{
-    CountedPoints, Extrema, FitError, Fitted, Mirror, PlaneFit, corners, fit_plane,
-};
+use crate::geometry::fitting::{CountedPoints, Extrema, FitError, Fitted, Mirror, PlaneFit};
 use crate::geometry::parameters::{OutOfRange, Quantity};
-use crate::geometry::{End, MAX_DEGREE, Progress, counted, significant};
+use crate::geometry::{MAX_DEGREE, Progress, counted, significant};
 
 /// Points that are off a symmetric curve by more than so many tolerances are not symmetric.
 const LOPSIDED: f64 = 10.0;
@@ -223,7 +219,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         ..asked(points.len(), values)?
     };
     let progress = limited(progress, values);
-    let (pieces, corners) = pieces(&points, values);
+    let (pieces, corners) = pieces(&points, asked.periodic, values.switch(&SPLIT));
     let fitted = pieces.iter().enumerate().map(|(index, piece)| {
         let share = |index: usize| index as f64 / pieces.len() as f64;
         let own = progress.part(share(index), share(index + 1));
@@ -316,161 +312,7 @@ fn pieces_of(input: &Operands, values: &Values) -> Vec<Piece> {
     let flat: Vec<DVec2> = flat.collect();
     match is_in_space(input) {
         true => vec![Piece::whole(flat.len())],
-        false => pieces(&flat, values).0,
-    }
-}
-
-/// The pieces of the points, which are split at corners if the values say so, and the corners.
-fn pieces(points: &[DVec2], values: &Values) -> (Vec<Piece>, Vec<usize>) {
-    let count = points.len();
-    let periodic = values.switch(&PERIODIC);
-    // The last point of a ring may repeat the first.
-    let repeats = periodic && count > 1 && points.first() == points.last();
-    let ring = count - usize::from(repeats);
-    let corners = corners(&points[..ring], periodic);
-    if !values.switch(&SPLIT) || corners.is_empty() {
-        return (vec![Piece::whole(count)], corners);
-    }
-    let last = count.saturating_sub(1);
-    let bounds = match periodic {
-        true => [&corners[..], &[corners[0] + ring]].concat(),
-        false => [&[0], &corners[..], &[last]].concat(),
-    };
-    let pieces = bounds.windows(2).map(|bounds| Piece {
-        numbers: (bounds[0]..=bounds[1]).map(|it| it % ring).collect(),
-        is_outer: [!periodic && bounds[0] == 0, !periodic && bounds[1] == last],
-    });
-    (pieces.collect(), corners)
-}
-
-/// Require numbers of features, if there are any asked for.
-fn features(extrema: Option<usize>, inflections: Option<usize>) -> Option<Requirement> {
-    let asked = extrema.or(inflections);
-    asked.map(|_| Requirement::Features {
-        stretch: None,
-        request: CountRequest::exactly([inflections, extrema, None]),
-    })
-}
-
-/// The points of one curve.
-struct Piece {
-    /// Their numbers, along the curve.
-    numbers: Vec<usize>,
-    /// Whether it begins, and ends, where all points do, and not at a corner.
-    is_outer: [bool; 2],
-}
-
-impl Piece {
-    /// All of so many points.
-    fn whole(points: usize) -> Self {
-        Self {
-            numbers: (0..points).collect(),
-            is_outer: [true; 2],
-        }
-    }
-
-    /// Fit one curve, whose inner ends are just at the corners. Points keep their numbers.
-    fn fit(
-        &self,
-        points: &[DVec2],
-        asked: &PlaneFit,
-        progress: &Progress,
-    ) -> Result<(PlaneFit, Fitted), FitError> {
-        let ends = [0, 1].map(|end| !self.is_outer[end] || asked.exact_ends[end]);
-        let outer = self.is_outer;
-        let is_whole = outer == [true; 2];
-        let own = self.of(points);
-        // A short piece has a lower degree, not the whole curve.
-        let degree = match is_whole {
-            true => asked.degree,
-            false => asked.degree.min(own.len().saturating_sub(1)).max(1),
-        };
-        let asked = PlaneFit {
-            degree,
-            periodic: asked.periodic && is_whole,
-            exact_ends: ends,
-            directions: [0, 1].map(|end| asked.directions[end].filter(|_| outer[end])),
-            curvatures: [0, 1].map(|end| asked.curvatures[end].filter(|_| outer[end])),
-            outliers: asked.outliers.as_ref().map(|numbers| self.own(numbers)),
-            weights: asked.weights.as_ref().map(|weights| self.of(weights)),
-            ..asked.clone()
-        };
-        let mut found = fit_plane(&own, &asked, progress)?;
-        for (outlier, _) in &mut found.outliers {
-            *outlier = self.numbers[*outlier];
-        }
-        for repeated in &mut found.repeated {
-            *repeated = self.numbers[*repeated];
-        }
-        Ok((asked, found))
-    }
-
-    /// Tell a cancellation from other errors, and which of several pieces an error is about.
-    fn told(&self, error: FitError, index: usize, pieces: usize) -> OperationError {
-        match (error, &self.numbers[..]) {
-            (FitError::Cancelled, _) => OperationError::Cancelled,
-            (error, [first, .., last]) if pieces > 1 => OperationError::Piece {
-                piece: index + 1,
-                first: *first,
-                last: *last,
-                error,
-            },
-            (error, _) => error.into(),
-        }
-    }
-
-    /// What belongs to its points, of all.
-    fn of<T: Copy>(&self, all: &[T]) -> Vec<T> {
-        let own = self.numbers.iter();
-        own.filter_map(|number| all.get(*number).copied()).collect()
-    }
-
-    /// Those of some points, by their places along the piece.
-    fn own(&self, numbers: &[usize]) -> Vec<usize> {
-        let places = self.numbers.iter().enumerate();
-        let inside = places.filter(|(_, number)| numbers.contains(number));
-        inside.map(|(place, _)| place).collect()
-    }
-
-    /// What the curve must hold: its features, its ends and the tolerance.
-    fn requirements(&self, points: &[DVec2], asked: &PlaneFit, found: &Fitted) -> Vec<Requirement> {
-        let features = features(asked.extrema.number(), asked.inflections);
-        let polygon = &found.polygon;
-        let counts = |index: &usize| found.outliers.iter().all(|(outlier, _)| outlier != index);
-        let mut counting = self.numbers.iter().copied().filter(counts);
-        let outer = [counting.next(), counting.next_back()];
-        let place = |(index, end): (usize, End)| {
-            let point = outer[index].filter(|_| asked.exact_ends[index]);
-            let point = point.and_then(|point| points.get(point));
-            let [direction, curvature] = [
-                asked.directions[index].is_some(),
-                asked.curvatures[index].is_some(),
-            ];
-            let target = EndTarget {
-                point: point.map_or(polygon.end_jet(end).point, |point| point.extend(0.0)),
-                direction: asked.directions[index].map(|direction| direction.extend(0.0)),
-                curvature: asked.curvatures[index],
-                ..EndTarget::default()
-            };
-            let tolerance = SHARE_OF_SIZE * polygon.size();
-            let asks = point.is_some() || direction || curvature;
-            asks.then(|| place_of(polygon, end, target, tolerance))
-        };
-        let places = End::BOTH.into_iter().enumerate().filter_map(place);
-        let limit = asked.tolerance.map(|most| Requirement::Limit {
-            found: found.deviation,
-            most,
-        });
-        // Without a wish the curve is as near as the noise lets expect.
-        let is_rough = asked.extrema == Extrema::Fewest && found.deviation > found.tolerance;
-        let failed = (!found.holds || is_rough).then_some(Requirement::Failed { left: None });
-        let places = places.filter(|_| !asked.periodic);
-        features
-            .into_iter()
-            .chain(places)
-            .chain(limit)
-            .chain(failed)
-            .collect()
+        false => pieces(&flat, values.switch(&PERIODIC), values.switch(&SPLIT)).0,
     }
 }
 

@@ -18,6 +18,7 @@ mod editable;
 mod end_change;
 mod error;
 mod features;
+mod fit_piece;
 mod handle;
 mod harmony_json;
 mod inputs;

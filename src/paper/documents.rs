@@ -6,9 +6,8 @@ use glam::{DVec2, DVec3};
 
 use super::PaperPage;
 use crate::document::{Colour, Curve, Document, Reference};
-use crate::geometry::approximation::{
-    ApproximationError, MeasuredDeviation, Placing, UniformKnots, float_polygon,
-};
+use crate::geometry::approximation::{ApproximationError, Placing, UniformKnots, float_polygon};
+use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::mineur_farin::{Configuration, Format};

@@ -9,7 +9,6 @@ mod placing;
 mod spacing;
 mod watched;
 
-pub use super::distance::MeasuredDeviation;
 pub use approximating::{
     Approximated, ApproximationRequest, Goal, MOST_FOR_SHAPE, MOST_SEGMENTS, approximate_between,
     approximate_by_steps, approximate_to_tolerance,

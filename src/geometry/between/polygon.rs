@@ -7,9 +7,10 @@ use super::error::BetweenError;
 use super::growth::ByGrowth;
 use super::parts::Parts;
 use crate::geometry::approximation::{
-    ApproximationError, MeasuredDeviation, Placing, Respaced, Spacing, UniformKnots, float_polygon,
+    ApproximationError, Placing, Respaced, Spacing, UniformKnots, float_polygon,
 };
 use crate::geometry::differentiable::Differentiable;
+use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::end::End;
 use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use crate::geometry::features::{Features, Verdict};

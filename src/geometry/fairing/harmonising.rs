@@ -1,20 +1,17 @@
 //! Harmonising: the least change that leaves the requested features. The method is Batten's own.
 
 use glam::DVec3;
-use thiserror::Error;
 
 use super::counts::{CountRequest, ShapeCounts, counted, domain, seen, significant};
-use super::joint_correction::{Disturbance, correct_jointly};
 use super::problem::{Problem, Sweep};
+use super::refitting::{fit_conditions, fitted};
 use super::requirement::{Check, PlaceRequest, Requirement};
-use crate::geometry::distance::MeasuredDeviation;
-use crate::geometry::end::End;
 use crate::geometry::end_correction::EndTarget;
-use crate::geometry::error::PolygonError;
 use crate::geometry::features::Features;
-use crate::geometry::fitting::{Refit, refit};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
+
+pub use super::harmonised::{Harmonised, Harmony, HarmonyError, Held};
 
 /// The weight ε at which the search begins.
 const FIRST_CLOSENESS: f64 = 1e3;
@@ -34,17 +31,8 @@ const FOUND: f64 = 1.2;
 /// A move of the curve by less than this share of its size is near enough to fit nothing instead.
 const NEAR: f64 = 1e-4;
 
-/// A curve without some of the features that stand out must be so many times nearer than one with all of them.
-const LOST: f64 = 3.0;
-
-/// A fitted curve, whose vertices may lie anywhere, must be so many times nearer than the least change of them.
-const REFITTED: f64 = 2.0;
-
 /// The share of the time for the least change where a fit may follow.
 const LEAST_CHANGE: f64 = 0.6;
-
-/// The share of the time that is left for a fit; the rest proves and measures it.
-const FIT: f64 = 0.8;
 
 /// The most steps for one ε.
 const MOST_STEPS: usize = 20;
@@ -52,111 +40,6 @@ const MOST_STEPS: usize = 20;
 /// The orders of the differences of curvature that are tried: second differences straighten the
 /// curvature, third ones keep a bend of it.
 const ORDERS: [usize; 2] = [2, 3];
-
-/// Held values of an end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Held {
-    /// Nothing.
-    Free,
-    /// The point.
-    Position,
-    /// Point and direction.
-    Direction,
-    /// Point, direction and curvature, in space with the osculating plane.
-    Curvature,
-    /// All these and the slope of the curvature.
-    Slope,
-    /// Everything up to the derivative of order n − 1: the curve beyond stays as it is.
-    All,
-}
-
-/// Request for harmonising. Without a requested number of features no more may remain than
-/// stand out: extrema that differ by at least 5 % of the extrema beside them, and the inflections
-/// between them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Harmony<'a> {
-    /// The stretch [u₀, u₁] of the curve, of a periodic one with u₀ > u₁ over the seam; `None` for all
-    /// of it.
-    pub stretch: Option<[f64; 2]>,
-    /// The held values of its two ends.
-    pub ends: [Held; 2],
-    /// The vertices that stay where they are.
-    pub locked: &'a [usize],
-    /// Wanted number of extrema of the curvature.
-    pub extrema: Option<usize>,
-    /// Wanted number of inflections; in space, of zeros of the torsion.
-    pub inflections: Option<usize>,
-    /// Wanted number of extrema of the torsion, in space.
-    pub torsion_extrema: Option<usize>,
-    /// Largest move of the curve, as a length.
-    pub largest_deviation: Option<f64>,
-}
-
-/// Result of harmonising.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Harmonised {
-    /// The polygon with the least change that meets the request, or else the one that
-    /// comes closest.
-    pub polygon: FloatPolygon,
-    /// Whether it meets the requirements.
-    pub reached: bool,
-    /// What the polygon must hold: proved features, ends, vertices, deviation.
-    pub requirements: Vec<Requirement>,
-    /// The requested numbers of features.
-    pub request: ShapeCounts,
-    /// The proved numbers of features.
-    pub counts: ShapeCounts,
-    /// The number of undecided places, cusps included.
-    pub undecided: usize,
-    /// How far the curve moves.
-    pub deviation: f64,
-    /// Whether that is a bound; otherwise samples show it.
-    pub bounded: bool,
-    /// The number of Gauss–Newton steps in all.
-    pub iterations: usize,
-    /// Whether the curve was fitted to the old one instead, because the least change did not do or moves it
-    /// farther.
-    pub refitted: bool,
-}
-
-/// Why a curve cannot be harmonised.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum HarmonyError {
-    /// The stretch is no part of the curve.
-    #[error(
-        "a stretch from u = {from} to {to} is no part of the curve: give two {} from 0 to {end}",
-        if *periodic { "different numbers" } else { "rising numbers" }
-    )]
-    BadStretch {
-        /// Its start.
-        from: f64,
-        /// Its end.
-        to: f64,
-        /// The largest parameter of the curve.
-        end: f64,
-        /// Whether the curve is periodic.
-        periodic: bool,
-    },
-    /// A stretch over the seam leaves nothing where the curve could be cut.
-    #[error(
-        "a stretch from u = {from} over the seam to {to} leaves less than a segment: let a whole number lie between {to} and {from}, or harmonise the whole curve"
-    )]
-    NothingBeyond {
-        /// Its start.
-        from: f64,
-        /// Its end.
-        to: f64,
-    },
-    /// No vertex may move.
-    #[error("no vertex may move: free the ends or vertices, or choose a longer stretch")]
-    NothingMoves,
-    /// The computation was ended early.
-    #[error("harmonising was cancelled")]
-    Cancelled,
-    /// A vertex would leave the range of numbers.
-    #[error(transparent)]
-    Polygon(#[from] PolygonError),
-}
 
 /// Move vertices as little as possible so that the requested features remain, proved.
 ///
@@ -294,33 +177,6 @@ pub fn least_change(
     Ok(Harmonised { iterations, ..best })
 }
 
-impl Harmonised {
-    /// Distance from the request: a smaller one is better.
-    fn rank(&self) -> (bool, f64) {
-        let price = if self.refitted { REFITTED } else { 1.0 };
-        (!self.reached, price * self.priced(self.deviation))
-    }
-
-    /// A length that measures a change, the longer if features are lost.
-    fn priced(&self, length: f64) -> f64 {
-        let price = if self.lacking() > 0 { LOST } else { 1.0 };
-        price * length
-    }
-
-    /// The number of requested features that the curve has too few of.
-    fn lacking(&self) -> usize {
-        self.counts.lacking(self.request)
-    }
-
-    /// Measure how far the curve is from the one that it was.
-    fn measure(&mut self, polygon: &FloatPolygon, progress: &Progress) {
-        let measured = MeasuredDeviation::between(&self.polygon, polygon, progress);
-        if let Some(measured) = measured.ok().filter(|it| it.bounded) {
-            self.deviation = self.deviation.min(measured.largest);
-        }
-    }
-}
-
 /// What must hold, the deviation apart.
 fn requirements(
     polygon: &FloatPolygon,
@@ -377,103 +233,6 @@ fn problem<'a>(
         }
     }
     problem
-}
-
-/// Up to which derivative each end stays where a curve may be fitted to the old one; `None` where it may not.
-fn fit_conditions(polygon: &FloatPolygon, harmony: &Harmony) -> Option<[Option<usize>; 2]> {
-    let is_whole = harmony.stretch.is_none() && harmony.locked.is_empty();
-    if !is_whole || !polygon.is_planar() || polygon.weights().is_some() || polygon.degree() < 3 {
-        return None;
-    }
-    let order = |held: Held| match held {
-        Held::Free => Some(None),
-        Held::Position => Some(Some(0)),
-        Held::Direction => Some(Some(1)),
-        Held::Curvature => Some(Some(2)),
-        Held::Slope | Held::All => None,
-    };
-    let [start, end] = harmony.ends.map(order);
-    Some([start?, end?])
-}
-
-/// Curves that are fitted as a whole to the old one, have the features asked for and do not move too far.
-fn fitted(
-    polygon: &FloatPolygon,
-    harmony: &Harmony,
-    kept: [Option<usize>; 2],
-    known: &Harmonised,
-    progress: &Progress,
-) -> Vec<Harmonised> {
-    let most = harmony.largest_deviation.unwrap_or(f64::INFINITY);
-    let tried = |inflections: Option<usize>, share: f64| {
-        let asked = Refit {
-            extrema: known.request.extrema,
-            inflections,
-            kept,
-        };
-        let refitted = refit(polygon, &asked, &progress.hurried(share))?;
-        let is_limit = |it: &Requirement| matches!(it, Requirement::Limit { .. });
-        let requirements = known.requirements.iter().filter(|it| !is_limit(it));
-        let requirements: Vec<Requirement> = requirements.cloned().collect();
-        let refitted = with_ends(refitted, &requirements, progress);
-        let features = Features::proved(&refitted, |_| !progress.is_cancelled())?;
-        let found = counted(&features, true, None);
-        let measured = MeasuredDeviation::between(&refitted, polygon, progress).ok()?;
-        let limit = limit(measured.largest, most);
-        let requirements = [requirements, vec![limit]].concat();
-        let check = Check::with_features(&requirements, &refitted, Some(&features));
-        check.holds.then_some(Harmonised {
-            polygon: refitted,
-            reached: true,
-            requirements,
-            request: known.request,
-            counts: found.counts,
-            undecided: found.undecided,
-            deviation: measured.largest,
-            bounded: measured.bounded,
-            iterations: 0,
-            refitted: true,
-        })
-    };
-    // Where no number of inflections is given, fewer will do if those that stand out do not.
-    let own = Some(known.request.inflections);
-    let tries = match harmony.inflections {
-        Some(_) => vec![(own, FIT)],
-        None => vec![(own, 0.5 * FIT), (None, FIT)],
-    };
-    let found = tries
-        .into_iter()
-        .filter_map(|(inflections, share)| tried(inflections, share));
-    found.collect()
-}
-
-/// Give a fitted curve just the ends that are required; as it was if it has them, or they cannot be met.
-fn with_ends(
-    polygon: FloatPolygon,
-    requirements: &[Requirement],
-    progress: &Progress,
-) -> FloatPolygon {
-    let places = requirements
-        .iter()
-        .filter_map(|requirement| match requirement {
-            Requirement::Place(place) => Some(*place),
-            _ => None,
-        });
-    let places: Vec<PlaceRequest> = places.collect();
-    let size = polygon.size();
-    if places.iter().all(|place| place.is_met(&polygon, size)) {
-        return polygon;
-    }
-    let end = |u: f64| if u > 0.0 { End::Finish } else { End::Start };
-    let targets = places.iter().map(|place| (end(place.u), place.target));
-    let targets: Vec<(End, EndTarget)> = targets.collect();
-    let order = Disturbance::Differences(3);
-    let corrected = correct_jointly(&polygon, &targets, order, &[], progress);
-    corrected.map_or(polygon, |corrected| corrected.polygon)
-}
-
-fn limit(found: f64, most: f64) -> Requirement {
-    Requirement::Limit { found, most }
 }
 
 fn prove(polygon: &FloatPolygon, progress: &Progress) -> Result<Features, HarmonyError> {
@@ -765,7 +524,14 @@ impl Search<'_> {
             Check::with_features(requirements, &polygon, Some(&features)).holds
         };
         let holds_apart = check(&self.apart);
-        let requirements = [self.requirements, &[limit(deviation, self.most)]].concat();
+        let requirements = [
+            self.requirements,
+            &[Requirement::Limit {
+                found: deviation,
+                most: self.most,
+            }],
+        ]
+        .concat();
         let reached = check(&requirements);
         let moves = self.polygon.vertices().iter().zip(polygon.vertices());
         let moves = moves.map(|(before, after)| before.distance(*after));

@@ -5,33 +5,18 @@ use std::time::Duration;
 
 use glam::{DVec2, DVec3};
 
-use super::counted_points::CountedPoints;
 use super::error::FitError;
-use super::levels::{Level, Task, size};
-use super::mirror::Mirror;
-use super::neighbours::{self, with_middles};
-use super::problem::{Data, EndCondition, EndValue};
+use super::levels::{Level, Task};
+use super::plane_fit::{Extrema, PlaneFit};
+use super::prepared::Prepared;
+use super::problem::Data;
 use super::slope_coefficients::SlopeTables;
-use crate::geometry::control_polygon::check_size;
 use crate::geometry::crossing::crossing;
-use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::nearest::refined_parameter;
 use crate::geometry::progress::Progress;
-
-/// Without a tolerance, the one that counts: a share of the size, or so many times the noise, or what the largest of
-/// many normal errors is.
-const NEAR: f64 = 5e-4;
-const NOISE: f64 = 3.0;
-
-/// Of more points than the first number about as many as the second are looked at while a fit is searched for.
-const MANY: usize = 1500;
-const ENOUGH: usize = 500;
-
-/// The most points that a fit is refined on. They leave nothing to bulge between them, and their errors cancel.
-const DENSE: usize = 20_000;
 
 /// The most vertices without a wish, without and with a tolerance, and the points that each of them stands for at
 /// least.
@@ -41,13 +26,8 @@ const POINTS_A_VERTEX: usize = 2;
 /// Points that are off by no more than this, of a size of 1 or less, are met.
 const EXACT: f64 = 1e-11;
 
-/// Coordinates of the middle are multiples of the first share of the unit, and vertices of straight lines of the second:
-/// their sums have no rounding.
-const GRID: f64 = 1.0 / (1 << 20) as f64;
+/// Vertices of straight lines are multiples of this share of the unit: their sums have no rounding.
 const LINE_GRID: f64 = 1.0 / (1_u64 << 43) as f64;
-
-/// Points beyond the extrema of their discrete curvature.
-const OUTER: usize = 4;
 
 /// The most extrema that are tried.
 const MOST_EXTREMA: usize = 80;
@@ -72,58 +52,6 @@ const RELEASED: usize = 3;
 /// The search for the fewest extrema ends where so many numbers in a row come no nearer than this share.
 const STALE: usize = 4;
 const GAIN: f64 = 0.9;
-
-/// The number of extrema that is wished.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Extrema {
-    /// The fewest with which the tolerance is kept.
-    #[default]
-    Fewest,
-    /// Just so many.
-    Exactly(usize),
-}
-
-impl Extrema {
-    /// The number asked for.
-    pub fn number(self) -> Option<usize> {
-        match self {
-            Self::Fewest => None,
-            Self::Exactly(number) => Some(number),
-        }
-    }
-}
-
-/// What is asked of a fit in the plane.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PlaneFit {
-    /// The degree.
-    pub degree: usize,
-    /// Whether the curve is periodic; the last point is then followed by the first one.
-    pub periodic: bool,
-    /// The number of vertices; `None` for as many as it takes.
-    pub count: Option<usize>,
-    /// The most vertices; `None` for half the number of points, at most 40, or 80 with a tolerance.
-    pub most: Option<usize>,
-    /// The number of curvature extrema.
-    pub extrema: Extrema,
-    /// The number of inflections; `None` for any.
-    pub inflections: Option<usize>,
-    /// The largest distance of points that count; `None` for 5e-4 of the size, or three times the noise.
-    pub tolerance: Option<f64>,
-    /// Whether the curve begins just at the first point, and ends just at the last one.
-    pub exact_ends: [bool; 2],
-    /// Unit tangents at the ends.
-    pub directions: [Option<DVec2>; 2],
-    /// Signed curvatures at the ends.
-    pub curvatures: [Option<f64>; 2],
-    /// The points that do not count, from 0; `None` for those that stand out.
-    pub outliers: Option<Vec<usize>>,
-    /// The axis in which the curve is its own mirror image. An open one has an odd number of extrema then, and an
-    /// even one of inflections; the conditions at the start count for the end too.
-    pub mirror: Option<Mirror>,
-    /// How much each point counts; `None` if all count the same. Those of weight 0 do not count.
-    pub weights: Option<Vec<f64>>,
-}
 
 /// How near a number of extrema comes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -186,9 +114,8 @@ pub fn fit_plane(
     asked: &PlaneFit,
     progress: &Progress,
 ) -> Result<Fitted, FitError> {
-    let all = Prepared::new(points, asked)?;
-    let whole = all.thinned(asked, [DENSE, DENSE]).unwrap_or(all);
-    let thinned = whole.thinned(asked, [MANY, ENOUGH]);
+    let whole = Prepared::new(points, asked)?.refined_on(asked);
+    let thinned = whole.thinned(asked);
     let fit = Fit {
         prepared: thinned.as_ref().unwrap_or(&whole),
         whole: &whole,
@@ -217,255 +144,6 @@ fn crossing_of(polygon: &FloatPolygon, points: &[DVec2]) -> Option<DVec2> {
     let places = (0..=samples).map(|sample| sample as f64 / SAMPLES as f64);
     let curve: Vec<DVec2> = places.map(|u| polygon.point(u).truncate()).collect();
     crossing(&curve).filter(|_| crossing(points).is_none())
-}
-
-/// Points as they are fitted: those that count, about the origin, about 1 large.
-struct Prepared {
-    /// With light ones between them.
-    points: Vec<DVec2>,
-    weights: Vec<f64>,
-    /// Which of them are no light ones, and how many.
-    counts: Vec<bool>,
-    counting: usize,
-    middle: DVec2,
-    unit: f64,
-    noise: f64,
-    tolerance: f64,
-    outliers: Vec<usize>,
-    repeated: Vec<usize>,
-    ends: Vec<EndCondition>,
-}
-
-impl Prepared {
-    fn new(points: &[DVec2], asked: &PlaneFit) -> Result<Self, FitError> {
-        check_size(asked.degree, asked.count.unwrap_or(asked.degree + 1), false)?;
-        let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-        let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
-        let unit = 2.0_f64.powi((high - low).max_element().log2().ceil() as i32);
-        // Of few digits, so that straight curves stay straight when they are moved back.
-        let middle = 0.5 * low + 0.5 * high;
-        let mut middle = unit * (middle / (unit * GRID)).round() * GRID;
-        if let Some(mirror) = asked.mirror {
-            middle = mirror.onto_axis(middle);
-        }
-        let degree = asked.degree;
-        if !(unit > 0.0 && unit.is_finite()) {
-            let found = points.len().min(1);
-            return Err(FitError::TooFewPoints { found, degree });
-        }
-        let scaled = points
-            .iter()
-            .map(|point| ((*point - middle) / unit).extend(0.0));
-        let scaled: Vec<DVec3> = scaled.collect();
-        let left_out = asked.outliers.as_deref();
-        let counted =
-            CountedPoints::new(&scaled, asked.periodic, left_out, asked.weights.as_deref());
-        let differing = points.len() - counted.repeated.len();
-        let found = counted.points.len();
-        if differing.min(found) < degree + 1 {
-            return Err(FitError::TooFewPoints { found, degree });
-        }
-        if let Some(count) = asked.count.filter(|count| *count > differing) {
-            let points = differing;
-            return Err(FitError::TooManyVertices { count, points });
-        }
-        if let Extrema::Exactly(extrema) = asked.extrema
-            && extrema + OUTER > differing
-        {
-            return Err(FitError::TooManyExtrema {
-                extrema,
-                count: differing,
-                of: "points",
-                needed: extrema + OUTER,
-            });
-        }
-        // Of many points neighbours are nearer to each other than their noise, which hides it.
-        let noise = match found > MANY {
-            true => neighbours::noise(&every(&counted.points, ENOUGH)),
-            false => counted.noise,
-        };
-        let weights = counted.weights;
-        let counting: Vec<DVec2> = counted.points.iter().map(|it| it.truncate()).collect();
-        let tolerance = match asked.tolerance {
-            Some(tolerance) => tolerance / unit,
-            None => {
-                let normal = (2.0 * (found as f64).ln()).sqrt();
-                (NEAR * size(&counting)).max(NOISE.max(normal) * noise)
-            }
-        };
-        let ends = ends(&counting, asked, unit);
-        // Many points leave nothing to bulge between them.
-        let (all, counts) = match asked.periodic || found > DENSE {
-            true => (
-                counted.points.into_iter().zip(weights).collect(),
-                vec![true; found],
-            ),
-            false => with_middles(&counted.points, &weights),
-        };
-        let all = all.into_iter();
-        let (points, weights) = all
-            .map(|(point, weight)| (point.truncate(), weight))
-            .unzip();
-        Ok(Self {
-            points,
-            weights,
-            counts,
-            counting: found,
-            middle,
-            unit,
-            noise,
-            tolerance,
-            outliers: counted.outliers,
-            repeated: counted.repeated,
-            ends,
-        })
-    }
-}
-
-impl Prepared {
-    /// About so many of the points, evenly, with the first and the last one, if there are many.
-    fn thinned(&self, asked: &PlaneFit, [many, enough]: [usize; 2]) -> Option<Self> {
-        if self.counting <= many {
-            return None;
-        }
-        let heavy = self.points.iter().zip(&self.weights).zip(&self.counts);
-        let heavy = heavy.filter(|(_, counts)| **counts);
-        let heavy: Vec<(DVec3, f64)> = heavy
-            .map(|((at, weight), _)| (at.extend(0.0), *weight))
-            .collect();
-        let kept = every(&heavy, enough);
-        let counting = kept.len();
-        let (points, weights): (Vec<DVec3>, Vec<f64>) = kept.iter().copied().unzip();
-        let (all, counts) = match asked.periodic {
-            true => (kept, vec![true; counting]),
-            false => with_middles(&points, &weights),
-        };
-        let all = all.into_iter();
-        let (points, weights) = all
-            .map(|(point, weight)| (point.truncate(), weight))
-            .unzip();
-        Some(Self {
-            points,
-            weights,
-            counts,
-            counting,
-            outliers: self.outliers.clone(),
-            repeated: self.repeated.clone(),
-            ends: self.ends.clone(),
-            ..*self
-        })
-    }
-
-    /// The parameters of all points by those of some of them.
-    fn places_of_all(&self, thinned: &Self, places: &[f64], end: f64, periodic: bool) -> Vec<f64> {
-        let heavy = places.iter().zip(&thinned.counts);
-        let heavy = heavy.filter_map(|(place, counts)| counts.then_some(*place));
-        let mut known: Vec<(f64, f64)> = kept_of(self.counting, ENOUGH)
-            .iter()
-            .map(|it| *it as f64)
-            .zip(heavy)
-            .collect();
-        if let (true, Some((_, first))) = (periodic, known.first().copied()) {
-            known.push((self.counting as f64, first + end));
-        }
-        let mut before = 0;
-        let place = |counts: &bool| {
-            // Light points lie between two others.
-            let at = if *counts {
-                before as f64
-            } else {
-                before as f64 - 0.5
-            };
-            before += usize::from(*counts);
-            let behind = known.partition_point(|(own, _)| *own <= at);
-            let behind = behind.clamp(1, known.len() - 1);
-            let ((a, from), (b, to)) = (known[behind - 1], known[behind]);
-            let to = if periodic && to < from { to + end } else { to };
-            let place = from + (to - from) * (at - a) / (b - a);
-            match periodic {
-                true => place.rem_euclid(end),
-                false => place.clamp(0.0, end),
-            }
-        };
-        self.counts.iter().map(place).collect()
-    }
-}
-
-/// The numbers of those that are kept of many.
-fn kept_of(count: usize, enough: usize) -> Vec<usize> {
-    let last = count.saturating_sub(1);
-    let step = last.div_ceil(enough).max(1);
-    let mut kept: Vec<usize> = (0..last).step_by(step).collect();
-    kept.push(last);
-    kept
-}
-
-/// Keep some of many, evenly, with the first and the last one.
-fn every<T: Copy>(all: &[T], enough: usize) -> Vec<T> {
-    let kept = kept_of(all.len(), enough).into_iter();
-    kept.filter_map(|number| all.get(number).copied()).collect()
-}
-
-/// The conditions at the ends of an open curve.
-fn ends(points: &[DVec2], asked: &PlaneFit, unit: f64) -> Vec<EndCondition> {
-    let mut conditions = Vec::new();
-    if asked.periodic {
-        return conditions;
-    }
-    if let Some(mirror) = asked.mirror {
-        return mirrored_ends(points, asked, unit, mirror);
-    }
-    let outer = [points.first(), points.last()];
-    for (index, end) in [End::Start, End::Finish].into_iter().enumerate() {
-        let point = outer[index].filter(|_| asked.exact_ends[index]);
-        let values = [
-            point.map(|point| EndValue::Point(*point)),
-            asked.directions[index].map(EndValue::Direction),
-            asked.curvatures[index].map(|curvature| EndValue::Curvature(curvature * unit)),
-        ];
-        let values = values.into_iter().flatten();
-        conditions.extend(values.map(|value| EndCondition { end, value }));
-    }
-    conditions
-}
-
-/// The conditions at the start of a curve that is its own mirror image, or those at its end as they are there; the
-/// images hold at its end.
-fn mirrored_ends(
-    points: &[DVec2],
-    asked: &PlaneFit,
-    unit: f64,
-    mirror: Mirror,
-) -> Vec<EndCondition> {
-    let [first, last] = [points.first().copied(), points.last().copied()];
-    let image = |vector: Option<DVec2>| vector.map(|it| mirror.image(it));
-    let [exact, exact_last] = asked.exact_ends;
-    let point = first.filter(|_| exact);
-    let point = point.or(image(last).filter(|_| exact_last));
-    let [direction, end_direction] = asked.directions;
-    // The end runs the other way.
-    let direction = direction.or(image(end_direction).map(|it| -it));
-    let curvature = asked.curvatures[0].or(asked.curvatures[1]);
-    let values = [
-        point.map(EndValue::Point),
-        direction.map(EndValue::Direction),
-        curvature.map(|curvature| EndValue::Curvature(curvature * unit)),
-    ];
-    let values = values.into_iter().flatten();
-    let at_start = values.map(|value| EndCondition {
-        end: End::Start,
-        value,
-    });
-    let both = at_start.flat_map(|start| {
-        let value = match start.value {
-            EndValue::Point(point) => EndValue::Point(mirror.image(point)),
-            EndValue::Direction(direction) => EndValue::Direction(-mirror.image(direction)),
-            EndValue::Curvature(curvature) => EndValue::Curvature(curvature),
-        };
-        let end = End::Finish;
-        [start, EndCondition { end, value }]
-    });
-    both.collect()
 }
 
 /// What a search for the fewest extrema knows.

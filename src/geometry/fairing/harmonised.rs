@@ -1,0 +1,148 @@
+//! What harmonising is asked, and what it returns.
+
+use thiserror::Error;
+
+use super::counts::ShapeCounts;
+use super::requirement::Requirement;
+use crate::geometry::distance::MeasuredDeviation;
+use crate::geometry::error::PolygonError;
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+
+/// A curve without some of the features that stand out must be so many times nearer than one with all of them.
+const LOST: f64 = 3.0;
+
+/// A fitted curve, whose vertices may lie anywhere, must be so many times nearer than the least change of them.
+const REFITTED: f64 = 2.0;
+
+/// Held values of an end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Held {
+    /// Nothing.
+    Free,
+    /// The point.
+    Position,
+    /// Point and direction.
+    Direction,
+    /// Point, direction and curvature, in space with the osculating plane.
+    Curvature,
+    /// All these and the slope of the curvature.
+    Slope,
+    /// Everything up to the derivative of order n − 1: the curve beyond stays as it is.
+    All,
+}
+
+/// Request for harmonising. Without a requested number of features no more may remain than
+/// stand out: extrema that differ by at least 5 % of the extrema beside them, and the inflections
+/// between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Harmony<'a> {
+    /// The stretch [u₀, u₁] of the curve, of a periodic one with u₀ > u₁ over the seam; `None` for all
+    /// of it.
+    pub stretch: Option<[f64; 2]>,
+    /// The held values of its two ends.
+    pub ends: [Held; 2],
+    /// The vertices that stay where they are.
+    pub locked: &'a [usize],
+    /// Wanted number of extrema of the curvature.
+    pub extrema: Option<usize>,
+    /// Wanted number of inflections; in space, of zeros of the torsion.
+    pub inflections: Option<usize>,
+    /// Wanted number of extrema of the torsion, in space.
+    pub torsion_extrema: Option<usize>,
+    /// Largest move of the curve, as a length.
+    pub largest_deviation: Option<f64>,
+}
+
+/// Result of harmonising.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Harmonised {
+    /// The polygon with the least change that meets the request, or else the one that
+    /// comes closest.
+    pub polygon: FloatPolygon,
+    /// Whether it meets the requirements.
+    pub reached: bool,
+    /// What the polygon must hold: proved features, ends, vertices, deviation.
+    pub requirements: Vec<Requirement>,
+    /// The requested numbers of features.
+    pub request: ShapeCounts,
+    /// The proved numbers of features.
+    pub counts: ShapeCounts,
+    /// The number of undecided places, cusps included.
+    pub undecided: usize,
+    /// How far the curve moves.
+    pub deviation: f64,
+    /// Whether that is a bound; otherwise samples show it.
+    pub bounded: bool,
+    /// The number of Gauss–Newton steps in all.
+    pub iterations: usize,
+    /// Whether the curve was fitted to the old one instead, because the least change did not do or moves it
+    /// farther.
+    pub refitted: bool,
+}
+
+/// Why a curve cannot be harmonised.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum HarmonyError {
+    /// The stretch is no part of the curve.
+    #[error(
+        "a stretch from u = {from} to {to} is no part of the curve: give two {} from 0 to {end}",
+        if *periodic { "different numbers" } else { "rising numbers" }
+    )]
+    BadStretch {
+        /// Its start.
+        from: f64,
+        /// Its end.
+        to: f64,
+        /// The largest parameter of the curve.
+        end: f64,
+        /// Whether the curve is periodic.
+        periodic: bool,
+    },
+    /// A stretch over the seam leaves nothing where the curve could be cut.
+    #[error(
+        "a stretch from u = {from} over the seam to {to} leaves less than a segment: let a whole number lie between {to} and {from}, or harmonise the whole curve"
+    )]
+    NothingBeyond {
+        /// Its start.
+        from: f64,
+        /// Its end.
+        to: f64,
+    },
+    /// No vertex may move.
+    #[error("no vertex may move: free the ends or vertices, or choose a longer stretch")]
+    NothingMoves,
+    /// The computation was ended early.
+    #[error("harmonising was cancelled")]
+    Cancelled,
+    /// A vertex would leave the range of numbers.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+}
+
+impl Harmonised {
+    /// Distance from the request: a smaller one is better.
+    pub(super) fn rank(&self) -> (bool, f64) {
+        let price = if self.refitted { REFITTED } else { 1.0 };
+        (!self.reached, price * self.priced(self.deviation))
+    }
+
+    /// A length that measures a change, the longer if features are lost.
+    pub(super) fn priced(&self, length: f64) -> f64 {
+        let price = if self.lacking() > 0 { LOST } else { 1.0 };
+        price * length
+    }
+
+    /// The number of requested features that the curve has too few of.
+    pub(super) fn lacking(&self) -> usize {
+        self.counts.lacking(self.request)
+    }
+
+    /// Measure how far the curve is from the one that it was.
+    pub(super) fn measure(&mut self, polygon: &FloatPolygon, progress: &Progress) {
+        let measured = MeasuredDeviation::between(&self.polygon, polygon, progress);
+        if let Some(measured) = measured.ok().filter(|it| it.bounded) {
+            self.deviation = self.deviation.min(measured.largest);
+        }
+    }
+}

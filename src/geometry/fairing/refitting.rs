@@ -1,0 +1,115 @@
+//! Fits to a curve that is to be harmonised: nearly the same curve with the features asked for.
+
+use super::counts::counted;
+use super::harmonised::{Harmonised, Harmony, Held};
+use super::joint_correction::{Disturbance, correct_jointly};
+use super::requirement::{Check, PlaceRequest, Requirement};
+use crate::geometry::distance::MeasuredDeviation;
+use crate::geometry::end::End;
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::features::Features;
+use crate::geometry::fitting::{Refit, refit};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+
+/// The share of the time that is left for a fit; the rest proves and measures it.
+const FIT: f64 = 0.8;
+
+/// Up to which derivative each end stays where a curve may be fitted to the old one; `None` where it may not.
+pub(super) fn fit_conditions(
+    polygon: &FloatPolygon,
+    harmony: &Harmony,
+) -> Option<[Option<usize>; 2]> {
+    let is_whole = harmony.stretch.is_none() && harmony.locked.is_empty();
+    if !is_whole || !polygon.is_planar() || polygon.weights().is_some() || polygon.degree() < 3 {
+        return None;
+    }
+    let order = |held: Held| match held {
+        Held::Free => Some(None),
+        Held::Position => Some(Some(0)),
+        Held::Direction => Some(Some(1)),
+        Held::Curvature => Some(Some(2)),
+        Held::Slope | Held::All => None,
+    };
+    let [start, end] = harmony.ends.map(order);
+    Some([start?, end?])
+}
+
+/// Curves that are fitted as a whole to the old one, have the features asked for and do not move too far.
+pub(super) fn fitted(
+    polygon: &FloatPolygon,
+    harmony: &Harmony,
+    kept: [Option<usize>; 2],
+    known: &Harmonised,
+    progress: &Progress,
+) -> Vec<Harmonised> {
+    let most = harmony.largest_deviation.unwrap_or(f64::INFINITY);
+    let tried = |inflections: Option<usize>, share: f64| {
+        let asked = Refit {
+            extrema: known.request.extrema,
+            inflections,
+            kept,
+        };
+        let refitted = refit(polygon, &asked, &progress.hurried(share))?;
+        let is_limit = |it: &Requirement| matches!(it, Requirement::Limit { .. });
+        let requirements = known.requirements.iter().filter(|it| !is_limit(it));
+        let requirements: Vec<Requirement> = requirements.cloned().collect();
+        let refitted = with_ends(refitted, &requirements, progress);
+        let features = Features::proved(&refitted, |_| !progress.is_cancelled())?;
+        let found = counted(&features, true, None);
+        let measured = MeasuredDeviation::between(&refitted, polygon, progress).ok()?;
+        let limit = Requirement::Limit {
+            found: measured.largest,
+            most,
+        };
+        let requirements = [requirements, vec![limit]].concat();
+        let check = Check::with_features(&requirements, &refitted, Some(&features));
+        check.holds.then_some(Harmonised {
+            polygon: refitted,
+            reached: true,
+            requirements,
+            request: known.request,
+            counts: found.counts,
+            undecided: found.undecided,
+            deviation: measured.largest,
+            bounded: measured.bounded,
+            iterations: 0,
+            refitted: true,
+        })
+    };
+    // Where no number of inflections is given, fewer will do if those that stand out do not.
+    let own = Some(known.request.inflections);
+    let tries = match harmony.inflections {
+        Some(_) => vec![(own, FIT)],
+        None => vec![(own, 0.5 * FIT), (None, FIT)],
+    };
+    let found = tries
+        .into_iter()
+        .filter_map(|(inflections, share)| tried(inflections, share));
+    found.collect()
+}
+
+/// Give a fitted curve just the ends that are required; as it was if it has them, or they cannot be met.
+fn with_ends(
+    polygon: FloatPolygon,
+    requirements: &[Requirement],
+    progress: &Progress,
+) -> FloatPolygon {
+    let places = requirements
+        .iter()
+        .filter_map(|requirement| match requirement {
+            Requirement::Place(place) => Some(*place),
+            _ => None,
+        });
+    let places: Vec<PlaceRequest> = places.collect();
+    let size = polygon.size();
+    if places.iter().all(|place| place.is_met(&polygon, size)) {
+        return polygon;
+    }
+    let end = |u: f64| if u > 0.0 { End::Finish } else { End::Start };
+    let targets = places.iter().map(|place| (end(place.u), place.target));
+    let targets: Vec<(End, EndTarget)> = targets.collect();
+    let order = Disturbance::Differences(3);
+    let corrected = correct_jointly(&polygon, &targets, order, &[], progress);
+    corrected.map_or(polygon, |corrected| corrected.polygon)
+}
