@@ -322,8 +322,8 @@ impl<'a> Task<'a> {
         let better = |found: &mut Option<Level>, it: Level| {
             *found = Some(it.or(found.take()));
         };
-        let is_asked = self.count == Some(count) && count <= MANY;
-        // The number that is asked for must be as near as those with fewer vertices.
+        let is_asked = self.count.is_some() && count <= MANY;
+        // A number that is asked for must be as near as those with fewer vertices, so that these are tried as hard.
         let tried = if is_asked { ASKED_STARTS } else { 1 };
         for best in known.iter().rev().take(tried) {
             let before = self.problem(best.splines.count);
