@@ -1,8 +1,7 @@
 //! Vertices on curves and vertices by quasi-interpolation.
 
-use batten::geometry::approximation::{
-    ApproximationError, MeasuredDeviation, Placing, UniformKnots, float_polygon,
-};
+use batten::geometry::approximation::{ApproximationError, Placing, UniformKnots, float_polygon};
+use batten::geometry::distance::MeasuredDeviation;
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{Differentiable, FloatPolygon, PolygonError, Progress};
 use glam::DVec3;
