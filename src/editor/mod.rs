@@ -93,7 +93,7 @@ impl Editor {
         self.view.run_in_background(wake.clone());
         self.foreseeing = Client::background("foresight", wake.clone());
         self.recovery.autosaving.run_in_background(wake.clone());
-        self.filing = Filing::background(wake.clone());
+        self.filing.run_in_background(wake.clone());
         self.operations = Operations::background(wake);
     }
 

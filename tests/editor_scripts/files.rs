@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use batten::document::{Curve, Document, Extras};
 use batten::editor::{Command, Editor, FileAnswer, Note};
@@ -354,4 +355,26 @@ fn the_clipboard_keeps_the_size_of_curves() {
     editor.paste_text(&text).expect("a curve");
     let (pasted, unit) = widths(&editor);
     assert!(unit == MM && (pasted[1] - 50.8).abs() < 1e-12, "{pasted:?}");
+}
+
+#[test]
+fn a_question_about_a_file_opened_at_the_start_outlasts_the_change_to_threads() {
+    let folder = folder();
+    let path = folder.path().join("scan.dat");
+    fs::write(&path, "0 1 2 3\n4 5 6 7\n8 9 10 11\n").expect("a table");
+    let mut editor = Editor::new();
+    editor
+        .open(std::slice::from_ref(&path))
+        .expect("a question");
+    editor.run_in_background(Duration::from_secs(10), || ());
+    let asked = editor.filing().column_question().map(|it| it.path.clone());
+    assert_eq!(asked, Some(path));
+    let choice = ColumnChoice::of_numbers(&[2, 3]).map(FileAnswer::Columns);
+    editor.answer_files(choice).expect("a request");
+    let end = Instant::now() + Duration::from_secs(60);
+    while editor.document().references().next().is_none() && Instant::now() < end {
+        std::thread::sleep(Duration::from_millis(5));
+        editor.begin_frame();
+    }
+    assert_eq!(editor.document().references().count(), 1);
 }

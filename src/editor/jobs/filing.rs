@@ -125,13 +125,14 @@ pub struct UnitQuestion {
 }
 
 impl Filing {
-    /// Work on threads, which call `wake` when a result is there.
-    pub(in crate::editor) fn background(wake: impl Fn() + Clone + Send + 'static) -> Self {
-        Self {
-            client: Client::background("files", wake.clone()),
-            watch: Client::background("file watch", wake),
-            ..Self::default()
-        }
+    /// Work on threads from now on, which call `wake` when a result is there. Questions about files that were opened
+    /// before stay.
+    pub(in crate::editor) fn run_in_background(
+        &mut self,
+        wake: impl Fn() + Clone + Send + 'static,
+    ) {
+        self.client = Client::background("files", wake.clone());
+        self.watch = Client::background("file watch", wake);
     }
 
     /// Take the final reply to the last request for files, once it is there.
