@@ -2,16 +2,26 @@
 
 use glam::DVec2;
 
+/// Legs that come nearer to each other than this share of the polyline's size touch.
+const TOUCHING: f64 = 1e-12;
+
 /// Find a point where a polyline crosses itself: the first one found from the side of the least x. Legs that only
-/// touch do not cross. `None` if it does not cross itself.
+/// touch, but for rounding, do not cross. `None` if it does not cross itself.
 pub fn crossing(points: &[DVec2]) -> Option<DVec2> {
+    let touching = TOUCHING
+        * points
+            .iter()
+            .fold(0.0, |size: f64, it| size.max(it.abs().max_element()));
     let legs = points.windows(2);
     let mut legs: Vec<[DVec2; 2]> = legs.map(|leg| [leg[0], leg[1]]).collect();
     legs.sort_by(|a, b| low(a).total_cmp(&low(b)));
     let mut near: Vec<[DVec2; 2]> = Vec::new();
     for leg in legs {
         near.retain(|other| other[0].x.max(other[1].x) >= low(&leg));
-        if let Some(crossing) = near.iter().find_map(|other| crossing_of(&leg, other)) {
+        if let Some(crossing) = near
+            .iter()
+            .find_map(|other| crossing_of(&leg, other, touching))
+        {
             return Some(crossing);
         }
         near.push(leg);
@@ -23,12 +33,16 @@ fn low(leg: &[DVec2; 2]) -> f64 {
     leg[0].x.min(leg[1].x)
 }
 
-/// Where two legs cross, both inside.
-fn crossing_of([a, b]: &[DVec2; 2], [c, d]: &[DVec2; 2]) -> Option<DVec2> {
+/// Where two legs cross, each with its ends on both sides of the other and farther from it than `touching`.
+fn crossing_of([a, b]: &[DVec2; 2], [c, d]: &[DVec2; 2], touching: f64) -> Option<DVec2> {
     let (leg, other) = (*b - *a, *d - *c);
     let [from_c, from_d] = [leg.perp_dot(*c - *a), leg.perp_dot(*d - *a)];
     let [from_a, from_b] = [other.perp_dot(*a - *c), other.perp_dot(*b - *c)];
-    let crosses = from_c * from_d < 0.0 && from_a * from_b < 0.0;
+    let are_apart = |from: f64, other: f64, leg: DVec2| {
+        let least = touching * leg.length();
+        from * other < 0.0 && from.abs() > least && other.abs() > least
+    };
+    let crosses = are_apart(from_c, from_d, leg) && are_apart(from_a, from_b, other);
     crosses.then(|| a.lerp(*b, from_a / (from_a - from_b)))
 }
 
@@ -46,6 +60,14 @@ mod tests {
         assert_eq!(crossing(&bow), Some(DVec2::ONE));
         let ring = points(&[(0.0, 0.0), (2.0, 0.0), (1.0, 2.0), (0.0, 0.0)]);
         assert_eq!(crossing(&ring), None);
+        let rounded = points(&[
+            (1.0, 1e-17),
+            (0.0, 1.0),
+            (-1.0, 0.0),
+            (0.0, -1.0),
+            (1.0, 2e-17),
+        ]);
+        assert_eq!(crossing(&rounded), None);
         let back = points(&[(0.0, 0.0), (2.0, 0.0), (1.0, 0.0)]);
         assert_eq!(crossing(&back), None);
         let spiral =
