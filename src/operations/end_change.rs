@@ -1,11 +1,9 @@
 //! Remarks on end corrections that change the curve more than they correct it.
 
-use std::f64::consts::PI;
-
 use super::error::OperationError;
+use super::turned_over::turned_over;
 use crate::document::Curve;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
-use crate::geometry::features::Turning;
 use crate::geometry::{End, FloatPolygon, significant};
 
 /// A curve that moves more than so many times as far as its ends has changed as a whole. Spreading a
@@ -33,14 +31,8 @@ pub(super) fn remarks_on_change(
             "The curve moves by up to {moved}, and the ends are corrected by {asked}: {advice}"
         ));
     }
-    if before.is_planar() && after.is_planar() && !before.is_rational() {
-        let [old, new] = [before, after].map(|polygon| Turning::new(polygon).total());
-        if (new - old).abs() > PI {
-            let [old, new] = [old, new].map(|angle| significant(angle.to_degrees(), 3));
-            remarks.push(format!(
-                "The curve turns by {new}° in all, before by {old}°: {advice}, or turn the target direction"
-            ));
-        }
+    if let Some(turned) = turned_over(before, after) {
+        remarks.push(format!("{turned}: {advice}, or turn the target direction"));
     }
     if before.is_planar() && !after.is_planar() {
         remarks.push(

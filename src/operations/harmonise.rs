@@ -11,12 +11,13 @@ use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, Meaning, Parameter};
 use super::time_limit::{TIME_LIMIT, best_so_far, limited, why_ended};
+use super::turned_over::turned_over;
 use super::values::Values;
 use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{FloatPolygon, Progress, counted, rounded_up};
+use crate::geometry::{BezierPolygon, FloatPolygon, Progress, counted, rounded_up};
 
 /// How far the curve may move without a wish, by its size.
 const MOST_DEVIATION: f64 = 0.05;
@@ -155,7 +156,9 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let asked = |parameter| given_count(values, parameter);
     let locked = locked(curve, values)?;
     let most = given(values, &MAX_DEVIATION);
-    let most = most.or(Some(MOST_DEVIATION * curve.polygon.size()));
+    // Of the curve, not of the tails of its float polygon.
+    let size = BezierPolygon::from_float(&curve.polygon).size();
+    let most = most.or(Some(MOST_DEVIATION * size));
     let harmony = Harmony {
         stretch,
         ends: [end(&KEEP_START), end(&KEEP_END)],
@@ -193,13 +196,19 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         };
         Outcome::reshaped(id, found.polygon.clone(), deviation)
     };
-    outcome.requirements = vec![(id, found.requirements.clone())];
+    let turned = turned_over(&curve.polygon, &found.polygon);
+    let failed = turned.as_ref().map(|_| Requirement::Failed { left: None });
+    let requirements = found.requirements.iter().cloned().chain(failed);
+    outcome.requirements = vec![(id, requirements.collect())];
     if !found.reached {
         outcome.remarks = vec![why_not(&found, &harmony)];
         let late = progress.is_late();
         let late = late.then(|| best_so_far(&progress, values));
         outcome.remarks.extend(late);
     }
+    outcome
+        .remarks
+        .extend(turned.map(|turned| format!("{turned}: ask for more extrema")));
     if found.refitted {
         outcome.remarks.push(
             "Fitted to the curve: the least change of vertices does not do, or moves it too far"

@@ -35,6 +35,7 @@ mod report_text;
 mod summary;
 mod targets;
 mod time_limit;
+mod turned_over;
 mod value;
 mod values;
 mod which_end;

@@ -2,7 +2,7 @@
 
 use batten::document::Edit;
 use batten::geometry::features::{Feature, Features};
-use batten::geometry::{End, FloatPolygon};
+use batten::geometry::{ClampedPolygon, End, FloatPolygon};
 use batten::operations::{Deviation, OperationError, Value};
 use glam::DVec3;
 
@@ -269,6 +269,34 @@ fn what_cannot_be_reached_offers_the_best_found() {
     assert!(refused.contains("no part of the curve"), "{refused}");
     let refused = runner.refused("harmonise", &[("locked", list(&[99.0]))]);
     assert!(refused.contains("99"), "{refused}");
+}
+
+#[test]
+fn the_curve_moves_by_a_share_of_its_own_size() {
+    let mut random = Random(11);
+    let reached = (0..20).filter(|_| {
+        let mut vertices: Vec<DVec3> = (0..12)
+            .map(|index| {
+                let along = DVec3::new(f64::from(index), 0.0, 0.0);
+                along + random.vector(0.8, false)
+            })
+            .collect();
+        // Far ends of the float polygon, which the curve does not come near.
+        vertices[0].y += 200.0;
+        vertices[11].y -= 200.0;
+        let runner = Runner::of(FloatPolygon::new(6, vertices, None, false).expect("valid"));
+        let outcome = runner.run("harmonise", &monotone()).expect("it can run");
+        let Deviation::AtMost(deviation) = outcome.deviation else {
+            panic!("{:?}", outcome.deviation);
+        };
+        let size = ClampedPolygon::from_float(runner.polygon()).size();
+        assert!(
+            !outcome.reached || deviation <= 0.05 * size,
+            "{deviation} {size}"
+        );
+        outcome.reached
+    });
+    assert!(reached.count() > 5);
 }
 
 #[test]
