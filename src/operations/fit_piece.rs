@@ -1,37 +1,44 @@
 //! The points of one of the curves that a fit makes.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::error::OperationError;
 use super::targets::{SHARE_OF_SIZE, place_of};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::counts::CountRequest;
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::fitting::{Extrema, FitError, Fitted, PlaneFit, corners, fit_plane};
+use crate::geometry::fitting::{
+    Extrema, FitError, Fitted, PlaneFit, corners, fit_plane, is_closed,
+};
 use crate::geometry::{End, Progress};
 
-/// The pieces of points, one for each curve: all, or those between corners. The corners come with them.
+/// The pieces of points, one for each curve: all, or those between corners, where closed points begin at a corner. The
+/// corners come with them.
 pub(super) fn pieces(
     points: &[DVec2],
     periodic: bool,
     are_split: bool,
 ) -> (Vec<Piece>, Vec<usize>) {
+    let in_space: Vec<DVec3> = points.iter().map(|point| point.extend(0.0)).collect();
+    let is_closed = is_closed(&in_space);
+    let goes_round = periodic || (are_split && is_closed);
     let count = points.len();
-    // The last point of a ring may repeat the first.
-    let repeats = periodic && count > 1 && points.first() == points.last();
-    let ring = count - usize::from(repeats);
-    let corners = corners(&points[..ring], periodic);
+    let ring = count - usize::from(goes_round && is_closed);
+    let corners = corners(&points[..ring], goes_round);
     if !are_split || corners.is_empty() {
         return (vec![Piece::whole(count)], corners);
     }
     let last = count.saturating_sub(1);
-    let bounds = match periodic {
+    let bounds = match goes_round {
         true => [&corners[..], &[corners[0] + ring]].concat(),
         false => [&[0], &corners[..], &[last]].concat(),
     };
     let pieces = bounds.windows(2).map(|bounds| Piece {
         numbers: (bounds[0]..=bounds[1]).map(|it| it % ring).collect(),
-        is_outer: [!periodic && bounds[0] == 0, !periodic && bounds[1] == last],
+        is_outer: [
+            !goes_round && bounds[0] == 0,
+            !goes_round && bounds[1] == last,
+        ],
     });
     (pieces.collect(), corners)
 }

@@ -6,6 +6,10 @@ use glam::DVec3;
 
 use super::neighbours::{noise, outliers};
 
+/// A point nearer than this share of the mean chord to the one before repeats it: files round, and circles close but
+/// for rounding.
+const REPEATED: f64 = 1e-6;
+
 /// Points that count, how much each does, and what is known of the others.
 pub struct CountedPoints {
     /// Those that count, without repeated ones.
@@ -31,12 +35,13 @@ impl CountedPoints {
         left_out: Option<&[usize]>,
         weights: Option<&[f64]>,
     ) -> Self {
+        let near = repeating(points);
         let mut repeated: Vec<usize> = (1..points.len())
-            .filter(|index| points[*index] == points[index - 1])
+            .filter(|index| points[*index].distance(points[index - 1]) <= near)
             .collect();
-        let closes = closes && points.len() > 1 && points.first() == points.last();
-        if closes && repeated.last() != Some(&(points.len() - 1)) {
-            repeated.push(points.len() - 1);
+        let last = points.len().saturating_sub(1);
+        if closes && is_closed(points) && repeated.last() != Some(&last) {
+            repeated.push(last);
         }
         let is_new = |index: &usize| repeated.binary_search(index).is_err();
         let numbers: Vec<usize> = (0..points.len()).filter(is_new).collect();
@@ -73,6 +78,20 @@ impl CountedPoints {
     }
 }
 
+/// Whether the last of some points repeats the first one.
+pub fn is_closed(points: &[DVec3]) -> bool {
+    match points {
+        [first, .., last] => first.distance(*last) <= repeating(points),
+        _ => false,
+    }
+}
+
+/// The distance within which points are one but for rounding.
+fn repeating(points: &[DVec3]) -> f64 {
+    let length: f64 = points.windows(2).map(|it| it[0].distance(it[1])).sum();
+    REPEATED * length / points.len().saturating_sub(1).max(1) as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -85,7 +104,16 @@ mod tests {
             .collect();
         let weights = [2.0, 4.0, 9.0, 0.0, 6.0, 4.0, 1.0];
         let found = CountedPoints::new(&points, true, Some(&[0]), Some(&weights));
-        assert_eq!((found.repeated, found.outliers), (vec![2, 6], vec![0, 3]));
+        assert_eq!(
+            (&found.repeated[..], &found.outliers[..]),
+            (&[2, 6][..], &[0, 3][..])
+        );
+        // Rounding does not make another point.
+        let mut rounded = points.clone();
+        rounded[2].y = 1e-12;
+        rounded[6].x = -1e-12;
+        let again = CountedPoints::new(&rounded, true, Some(&[0]), Some(&weights));
+        assert_eq!(again.repeated, [2, 6]);
         let places: Vec<f64> = found.points.iter().map(|point| point.x).collect();
         assert_eq!(places, [1.0, 3.0, 4.0]);
         assert_eq!(found.weights.iter().sum::<f64>(), 3.0);

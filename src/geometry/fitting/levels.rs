@@ -439,7 +439,10 @@ impl<'a> Task<'a> {
         let places = &level.start.curve.places;
         let points = self.data.points.iter().copied().zip(places.iter().copied());
         let heavy = points.zip(self.data.counts).filter(|(_, counts)| **counts);
-        let heavy: Vec<(DVec2, f64)> = heavy.map(|(placed, _)| placed).collect();
+        let mut heavy: Vec<(DVec2, f64)> = heavy.map(|(placed, _)| placed).collect();
+        if self.periodic {
+            heavy.extend(heavy.first().copied());
+        }
         loops(&self.problem(level.splines.count), &level.start) || winds(polygon, &heavy)
     }
 

@@ -27,7 +27,7 @@ mod slope_coefficients;
 mod splines;
 mod winding;
 
-pub use counted_points::CountedPoints;
+pub use counted_points::{CountedPoints, is_closed};
 pub use error::FitError;
 pub use fit::{Fitted, TradeOff, fit_plane};
 pub use mirror::Mirror;
