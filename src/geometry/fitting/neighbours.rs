@@ -114,12 +114,7 @@ fn inner_corners(points: &[DVec2]) -> Vec<usize> {
         .map(|it| (it[1] - it[0]).abs())
         .collect();
     let is_corner = |index: &usize| {
-        let near = [
-            index.checked_sub(2),
-            index.checked_sub(1),
-            Some(index + 1),
-            Some(index + 2),
-        ];
+        let near = [index.checked_sub(1), Some(index + 1)];
         let near = near
             .into_iter()
             .flatten()
