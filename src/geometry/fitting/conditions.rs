@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::banded_rows::Rows;
 use super::problem::{EndValue, PlacedCurve, Problem, Start};
+use super::splines::Splines;
 use crate::geometry::basis::uniform_basis_derivative;
 use crate::geometry::end::End;
 
@@ -13,6 +14,15 @@ const LEAST_MARGIN: f64 = 1e-9;
 
 /// The least turn of a segment where its sign is asked for.
 const BEND_MARGIN: f64 = 1e-7;
+
+/// The bend of an end that must have a curvature is not told by its sign too: it may be negative by so much.
+const FREE_BEND: f64 = -1.0;
+
+/// The turn of a segment, in radians, at an end without curvature: rounding must not make an inflection there.
+const STRAIGHT_TURN: f64 = 1e-12;
+
+/// How far inside, in segments, the sign of the turn is looked up.
+const BESIDE: f64 = 0.25;
 
 /// The share of its margin from which on a condition is met.
 const MET: f64 = 0.5;
@@ -82,7 +92,12 @@ impl Conditions {
                 for (index, value) in found.bends.iter().enumerate() {
                     let sign = signs.next().unwrap_or(1.0);
                     let gradient = found.bend_gradients.get(index);
-                    conditions.push(segment, sign, *value, gradient, BEND_MARGIN);
+                    let ends = [(0, 0), (segments.len() - 1, found.bends.len() - 1)];
+                    let mut known = End::BOTH.into_iter().zip(ends);
+                    let is_known = known
+                        .any(|(end, member)| member == (segment, index) && problem.bends_at(end));
+                    let margin = if is_known { FREE_BEND } else { BEND_MARGIN };
+                    conditions.push(segment, sign, *value, gradient, margin);
                 }
             }
         }
@@ -193,7 +208,11 @@ pub(super) fn end_equations(
                 let square = first.length_squared().max(f64::MIN_POSITIVE);
                 let speed = square.sqrt();
                 let turn = first.perp_dot(second) / square;
-                add(curvature * speed - turn, &|k| {
+                let wanted = match curvature == 0.0 {
+                    true => STRAIGHT_TURN.copysign(turn_beside(splines, vertices, condition.end)),
+                    false => curvature * speed,
+                };
+                add(wanted - turn, &|k| {
                     let by_first =
                         -second.perp() / square - (2.0 * turn / square + curvature / speed) * first;
                     firsts[k] * by_first + seconds[k] * first.perp() / square
@@ -202,4 +221,14 @@ pub(super) fn end_equations(
         }
     }
     equations
+}
+
+/// By how much a curve turns beside an end.
+fn turn_beside(splines: &Splines, vertices: &[DVec2], end: End) -> f64 {
+    let inside = match end {
+        End::Start => BESIDE,
+        End::Finish => splines.end() - BESIDE,
+    };
+    let [_, first, second] = splines.jet(vertices, inside);
+    first.perp_dot(second)
 }

@@ -319,6 +319,12 @@ impl<'a> Problem<'a> {
         self.spread_bends(runs)
     }
 
+    /// Whether an end must have a curvature.
+    pub(super) fn bends_at(&self, end: End) -> bool {
+        let mut ends = self.data.ends.iter();
+        ends.any(|it| it.end == end && matches!(it.value, EndValue::Curvature(_)))
+    }
+
     /// Whether the first member of a segment's slope is the last of the segment before.
     pub(super) fn shares_slopes(&self, segment: usize) -> bool {
         self.splines.degree > 3 && (segment > 0 || self.splines.periodic)
