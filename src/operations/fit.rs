@@ -529,8 +529,12 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
     }
     if let Some(at) = found.crossing {
         let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));
+        let advice = match asked.periodic || asked.exact_ends == [true; 2] {
+            true => "ask for more extrema",
+            false => "hold exact ends, or ask for more extrema",
+        };
         remarks.push(format!(
-            "The curve crosses itself at {x}, {y}, its points do not: hold exact ends, or ask for more extrema"
+            "The curve crosses itself at {x}, {y}, its points do not: {advice}"
         ));
     }
     if asked.mirror.is_some() && found.deviation > LOPSIDED * found.tolerance {

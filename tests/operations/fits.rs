@@ -2,13 +2,17 @@
 
 use std::f64::consts::PI;
 
-use batten::document::Document;
-use batten::geometry::Progress;
+use batten::document::{Curve, Document, Edit};
+use batten::geometry::features::{Feature, Features, Turning};
+use batten::geometry::{End, FloatPolygon, Progress};
 use batten::operations::fit::{curves, left_out, with_point_switched};
 use batten::operations::{Deviation, Operands, Report, Value};
 use glam::DVec3;
 
 use super::runner::operation;
+
+/// How far ends that meet are apart, in units of outlines of a size of 20.
+const MET: f64 = 1e-12;
 
 /// A wave, in steps that are even along x.
 fn wave(count: usize) -> Vec<DVec3> {
@@ -39,6 +43,27 @@ fn typed(points: Vec<DVec3>, texts: &[(&'static str, &str)]) -> Result<Report, S
         points,
         texts.iter().map(read).collect::<Result<_, String>>()?,
     )
+}
+
+/// The curves of a fit that reaches what is asked.
+fn fitted(points: Vec<DVec3>, given: Vec<(&'static str, Value)>) -> Vec<Curve> {
+    let input = Operands::new(&Document::default(), []).expect("no curves");
+    let input = input.with_points(points);
+    let fit = operation("fit");
+    let values = fit.values(&input, given).expect("values");
+    let outcome = fit.run(&input, &values, &Progress::default());
+    let outcome = outcome.expect("a fit");
+    assert!(outcome.reached, "{:?}", outcome.remarks);
+    let curve = |edit| match edit {
+        Edit::Add(curve) => *curve,
+        edit => panic!("{edit:?}"),
+    };
+    outcome.edits.into_iter().map(curve).collect()
+}
+
+/// Where a curve begins and ends.
+fn ends(polygon: &FloatPolygon) -> [DVec3; 2] {
+    End::BOTH.map(|end| polygon.end_jet(end).point)
 }
 
 fn report_of(points: Vec<DVec3>, given: Vec<(&'static str, Value)>) -> Result<Report, String> {
@@ -281,6 +306,66 @@ fn closed_points_are_split_at_their_corners() {
         "{}",
         found.text()
     );
+}
+
+#[test]
+fn pieces_of_closed_points_meet_at_their_corners() {
+    let split = ("split-corners", Value::Switch(true));
+    let pieces = fitted(outline(true), vec![split]);
+    assert_eq!(pieces.len(), 2);
+    let [[a, b], [c, d]] = [ends(&pieces[0].polygon), ends(&pieces[1].polygon)];
+    for (end, start) in [(b, c), (d, a)] {
+        assert!(end.distance(start) <= MET, "{end} {start}");
+        assert!((end.y.abs() - 10.0).abs() <= MET, "{end}");
+    }
+}
+
+#[test]
+fn straight_pieces_keep_exact_ends() {
+    let points: Vec<DVec3> = [0.0, 1.0, 2.5, 3.0, 4.5, 6.0, 7.0, 8.0]
+        .map(|x| DVec3::new(x, 0.5 * x, 0.0))
+        .into();
+    let exact = ("ends", Value::Choice(1));
+    let line = fitted(points.clone(), vec![exact]);
+    let found = ends(&line[0].polygon);
+    for (found, point) in found.into_iter().zip([points[0], points[7]]) {
+        assert!(found.distance(point) <= MET, "{found}");
+    }
+}
+
+#[test]
+fn ends_without_curvature_are_no_inflections() {
+    let half = wave(60).into_iter().filter(|point| point.x <= PI);
+    let half: Vec<DVec3> = half.collect();
+    for inflections in [vec![], vec![0.0]] {
+        let zero = || Value::List(vec![0.0]);
+        let found = fitted(
+            half.clone(),
+            vec![
+                ("extrema", Value::List(vec![1.0])),
+                ("inflections", Value::List(inflections)),
+                ("start-curvature", zero()),
+                ("end-curvature", zero()),
+            ],
+        );
+        let features = Features::new(&found[0].polygon);
+        assert_eq!(features.count(Feature::Inflection), 0);
+        assert_eq!(features.count(Feature::CurvatureExtremum), 1);
+    }
+}
+
+#[test]
+fn a_ring_that_closes_but_for_rounding_goes_round_once() {
+    let ring = (0..=60).map(|it| {
+        let angle = 2.0 * PI * f64::from(it) / 60.0;
+        DVec3::new(angle.cos(), angle.sin(), 0.0)
+    });
+    let ring: Vec<DVec3> = ring.collect();
+    assert!(ring[0] != ring[60]);
+    let periodic = ("periodic", Value::Switch(true));
+    let found = fitted(ring, vec![periodic]);
+    let turns = Turning::new(&found[0].polygon).total() / (2.0 * PI);
+    assert!((turns - 1.0).abs() <= 1e-9, "{turns}");
 }
 
 #[test]

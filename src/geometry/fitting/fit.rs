@@ -9,9 +9,9 @@ use super::error::FitError;
 use super::levels::{Level, Task};
 use super::plane_fit::{Extrema, PlaneFit};
 use super::prepared::Prepared;
-use super::problem::Data;
+use super::problem::{Data, EndCondition, EndValue};
 use super::slope_coefficients::SlopeTables;
-use crate::geometry::crossing::crossing;
+use super::winding::crossing_of;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
@@ -42,9 +42,6 @@ const STRIDES_FROM: usize = 8;
 /// So many further numbers are tried for so long beside the fewest, so that there is something to choose from.
 const MORE: usize = 2;
 const MORE_TIME: Duration = Duration::from_millis(500);
-
-/// Samples of a segment by which crossings are found.
-const SAMPLES: usize = 32;
 
 /// Levels of fewer extrema that begin those of more.
 const RELEASED: usize = 3;
@@ -138,14 +135,6 @@ pub fn fit_plane(
     })
 }
 
-/// A point where a curve crosses itself, at samples, if the polyline of its points does not.
-fn crossing_of(polygon: &FloatPolygon, points: &[DVec2]) -> Option<DVec2> {
-    let samples = polygon.segments() * SAMPLES;
-    let places = (0..=samples).map(|sample| sample as f64 / SAMPLES as f64);
-    let curve: Vec<DVec2> = places.map(|u| polygon.point(u).truncate()).collect();
-    crossing(&curve).filter(|_| crossing(points).is_none())
-}
-
 /// What a search for the fewest extrema knows.
 #[derive(Default)]
 struct Search {
@@ -154,6 +143,15 @@ struct Search {
     best: Option<Level>,
     /// Whether the result is shown as it gets better.
     is_shown: bool,
+}
+
+impl Search {
+    /// Levels of one or two extrema less, which begin those of more.
+    fn fewer(&self, extrema: usize) -> Vec<Level> {
+        let near = self.known.range(extrema.saturating_sub(2)..extrema);
+        let last = near.flat_map(|(_, levels)| levels.iter().rev().take(RELEASED));
+        last.cloned().collect()
+    }
 }
 
 /// What a number of extrema brings.
@@ -235,8 +233,8 @@ impl Fit<'_> {
             return (Some(exact), Vec::new(), None);
         }
         let Extrema::Exactly(extrema) = self.asked.extrema else {
-            let (level, trade_off) = self.fewest(true);
-            return (level, trade_off, None);
+            let search = self.fewest(true);
+            return (search.best, search.trade_off, None);
         };
         let (level, trade_off) = self.exactly(extrema);
         let tolerance = self.prepared.tolerance;
@@ -246,10 +244,21 @@ impl Fit<'_> {
         if self.asked.tolerance.is_none() || is_near {
             return (level, trade_off, None);
         }
-        let (fair, all) = self.fewest(false);
-        let fair = fair.filter(|fair| fair.largest <= tolerance);
+        let search = self.fewest(false);
+        let fair = search.best.as_ref().filter(|it| it.largest <= tolerance);
         let least = fair.map(|fair| fair.start.slopes.cuts.len());
-        (level, all, least)
+        // Fits with fewer extrema begin nearer ones with those asked for.
+        let levels = self.task(extrema, Some(tolerance));
+        let levels = levels.levels(&search.fewer(extrema), &|_| ());
+        let (again, _) = self.refined_choice(extrema, levels, true);
+        let off = |level: &Option<Level>| level.as_ref().map_or(f64::INFINITY, |it| it.largest);
+        let level = if off(&again) < off(&level) {
+            again
+        } else {
+            level
+        };
+        let least = least.filter(|_| off(&level) > tolerance);
+        (level, search.trade_off, least)
     }
 
     /// The straight line that the points lie on: its vertices are even to the last digit, so that nothing bends.
@@ -257,7 +266,9 @@ impl Fit<'_> {
         let (prepared, asked) = (self.whole, self.asked);
         let bends = asked.inflections.is_some_and(|it| it > 0)
             || asked.extrema.number().is_some_and(|it| it > 0);
-        let is_free = prepared.ends.is_empty() && asked.mirror.is_none();
+        // The line through the outer points meets them.
+        let is_point = |end: &EndCondition| matches!(end.value, EndValue::Point(_));
+        let is_free = prepared.ends.iter().all(is_point) && asked.mirror.is_none();
         if asked.periodic || bends || !is_free {
             return None;
         }
@@ -359,7 +370,7 @@ impl Fit<'_> {
     }
 
     /// The fit with the fewest extrema that keeps the tolerance, or else the nearest.
-    fn fewest(&self, is_shown: bool) -> (Option<Level>, Vec<TradeOff>) {
+    fn fewest(&self, is_shown: bool) -> Search {
         let mut search = Search {
             is_shown,
             ..Search::default()
@@ -400,9 +411,8 @@ impl Fit<'_> {
             self.progress.set_done((extrema as f64 / 10.0).min(0.9));
         }
         self.try_more(step, &mut search);
-        let mut trade_off = search.trade_off;
-        trade_off.sort_by_key(|it| it.extrema);
-        (search.best, trade_off)
+        search.trade_off.sort_by_key(|it| it.extrema);
+        search
     }
 
     /// Find what a few more extrema than those of the best would reach, for the choice alone.
@@ -444,9 +454,7 @@ impl Fit<'_> {
     /// extrema, or else what is nearer.
     fn searched(&self, extrema: usize, search: &mut Search) -> Searched {
         let tolerance = self.prepared.tolerance;
-        let near = search.known.range(extrema.saturating_sub(2)..extrema);
-        let last = near.flat_map(|(_, levels)| levels.iter().rev().take(RELEASED));
-        let fewer: Vec<Level> = last.cloned().collect();
+        let fewer = search.fewer(extrema);
         let is_first = search.is_shown && search.best.is_none();
         let levels = self
             .task(extrema, Some(tolerance))

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
+use crate::geometry::crossing::crossing;
 use crate::geometry::features::Turning;
 use crate::geometry::float_polygon::FloatPolygon;
 
@@ -16,7 +17,10 @@ const CLEAN: f64 = 1.0;
 
 /// An end that turns from the outermost chord by more than this and the turn of the polyline beside it, in radians, is
 /// a hook.
-const HOOK: f64 = 1.0;
+const HOOK: f64 = 0.5;
+
+/// Samples of a segment by which crossings are found.
+const SAMPLES: usize = 32;
 
 /// A chord between two points that follow each other.
 struct Chord {
@@ -48,6 +52,14 @@ pub(super) fn winds(polygon: &FloatPolygon, points: &[(DVec2, f64)]) -> bool {
         jump.max(high - low) > WINDING
     });
     between || (!polygon.is_periodic() && hooks(&turning, &chords, polygon.segments() as f64))
+}
+
+/// A point where a curve crosses itself, at samples, if the polyline of its points does not.
+pub(super) fn crossing_of(polygon: &FloatPolygon, points: &[DVec2]) -> Option<DVec2> {
+    let samples = polygon.segments() * SAMPLES;
+    let places = (0..=samples).map(|sample| sample as f64 / SAMPLES as f64);
+    let curve: Vec<DVec2> = places.map(|u| polygon.point(u).truncate()).collect();
+    crossing(&curve).filter(|_| crossing(points).is_none())
 }
 
 /// Whether an end turns away from the outermost chord.
