@@ -307,7 +307,8 @@ impl Fit<'_> {
             return None;
         }
         let polygon = level.polygon()?;
-        if self.task(0, None).goes_astray(&polygon, &level) {
+        // Where the points leave no choice, hooks at the ends are theirs.
+        if self.task(0, None).winds(&polygon, &level) {
             return None;
         }
         let features = Features::proved(&polygon, |_| !self.progress.is_cancelled())?;

@@ -8,7 +8,7 @@ use super::problem::{Data, PlacedCurve, Problem, Start};
 use super::sign_runs::SignRuns;
 use super::slope_coefficients::SlopeTables;
 use super::splines::Splines;
-use super::winding::winds;
+use super::winding::{hooks, winds};
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
@@ -435,7 +435,13 @@ impl<'a> Task<'a> {
     }
 
     /// Whether the curve goes astray between its points: by a loop, or by turns that they do not show.
-    pub(super) fn goes_astray(&self, polygon: &FloatPolygon, level: &Level) -> bool {
+    pub(super) fn winds(&self, polygon: &FloatPolygon, level: &Level) -> bool {
+        let points = self.placed_points(level);
+        loops(&self.problem(level.splines.count), &level.start) || winds(polygon, &points)
+    }
+
+    /// The points that count with their parameters; those of a ring end with the first one.
+    fn placed_points(&self, level: &Level) -> Vec<(DVec2, f64)> {
         let places = &level.start.curve.places;
         let points = self.data.points.iter().copied().zip(places.iter().copied());
         let heavy = points.zip(self.data.counts).filter(|(_, counts)| **counts);
@@ -443,7 +449,7 @@ impl<'a> Task<'a> {
         if self.periodic {
             heavy.extend(heavy.first().copied());
         }
-        loops(&self.problem(level.splines.count), &level.start) || winds(polygon, &heavy)
+        heavy
     }
 
     /// Whether the curve has just the features asked for, and does not go astray.
@@ -451,7 +457,7 @@ impl<'a> Task<'a> {
         let Some(polygon) = level.polygon() else {
             return false;
         };
-        if self.goes_astray(&polygon, level) {
+        if self.winds(&polygon, level) || hooks(&polygon, &self.placed_points(level)) {
             return false;
         }
         let features = Features::proved(&polygon, |_| !self.progress.is_cancelled());

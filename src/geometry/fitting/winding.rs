@@ -31,7 +31,7 @@ struct Chord {
     turn: f64,
 }
 
-/// Whether a curve turns by half a turn more or less than the polyline of its points, or hooks at an end.
+/// Whether a curve turns by half a turn more or less than the polyline of its points.
 ///
 /// `points` are in their order along the curve, with the parameters where it is nearest to them. Where noise turns the
 /// polyline sharply, only what the curve turns by between two chords counts.
@@ -40,7 +40,7 @@ pub(super) fn winds(polygon: &FloatPolygon, points: &[(DVec2, f64)]) -> bool {
     let chords = chords(points, polygon);
     let mut range: Option<[f64; 2]> = None;
     let mut last = None;
-    let between = chords.iter().any(|chord| {
+    chords.iter().any(|chord| {
         let turned = turning.angle(chord.middle) - chord.angle;
         let [low, high] = match range.filter(|_| chord.turn.abs() <= CLEAN) {
             Some([low, high]) => [turned.min(low), turned.max(high)],
@@ -50,8 +50,23 @@ pub(super) fn winds(polygon: &FloatPolygon, points: &[(DVec2, f64)]) -> bool {
         let jump = last.map_or(0.0, |last: f64| (turned - last).abs());
         last = Some(turned);
         jump.max(high - low) > WINDING
-    });
-    between || (!polygon.is_periodic() && hooks(&turning, &chords, polygon.segments() as f64))
+    })
+}
+
+/// Whether an end of a curve turns away from the outermost chord; `points` are as for [`winds`].
+pub(super) fn hooks(polygon: &FloatPolygon, points: &[(DVec2, f64)]) -> bool {
+    let turning = Turning::new(polygon);
+    let chords = chords(points, polygon);
+    let ([first, second, ..], [.., last]) = (&chords[..], &chords[..]) else {
+        return false;
+    };
+    let end = polygon.segments() as f64;
+    let mut outer = [(0.0, first, second.turn), (end, last, last.turn)].into_iter();
+    let turns_away = |(u, chord, turn): (f64, &Chord, f64)| {
+        let turned = turning.angle(u) - turning.angle(chord.middle);
+        turned.abs() > HOOK + turn.abs()
+    };
+    !polygon.is_periodic() && outer.any(turns_away)
 }
 
 /// A point where a curve crosses itself, at samples, if the polyline of its points does not.
@@ -60,18 +75,6 @@ pub(super) fn crossing_of(polygon: &FloatPolygon, points: &[DVec2]) -> Option<DV
     let places = (0..=samples).map(|sample| sample as f64 / SAMPLES as f64);
     let curve: Vec<DVec2> = places.map(|u| polygon.point(u).truncate()).collect();
     crossing(&curve).filter(|_| crossing(points).is_none())
-}
-
-/// Whether an end turns away from the outermost chord.
-fn hooks(turning: &Turning, chords: &[Chord], end: f64) -> bool {
-    let ([first, second, ..], [.., last]) = (chords, chords) else {
-        return false;
-    };
-    let outer = [(0.0, first, second.turn), (end, last, last.turn)];
-    outer.into_iter().any(|(u, chord, turn)| {
-        let turned = turning.angle(u) - turning.angle(chord.middle);
-        turned.abs() > HOOK + turn.abs()
-    })
 }
 
 /// The chords of points that differ.
@@ -144,9 +147,9 @@ mod tests {
         let hook = [(1.6, 0.6), (0.8, 0.7), (0.9, 0.05)];
         let hooked = line(&[&hook[..], &straight].concat());
         let places = || [0.0, 2.0, 3.0, 4.0].into_iter();
-        assert!(winds(&hooked, &placed(&hooked, places())));
+        assert!(hooks(&hooked, &placed(&hooked, places())));
         let calm = line(&[&[(-1.0, 0.0), (0.0, 0.0), (1.0, 0.1)], &straight[..]].concat());
-        assert!(!winds(&calm, &placed(&calm, places())));
+        assert!(!hooks(&calm, &placed(&calm, places())));
     }
 
     #[test]
