@@ -24,19 +24,17 @@ const COORDINATES: [[&[&str]; 3]; 2] = [
 /// The names of longitude and latitude, in degrees.
 const POSITION: [&[&str]; 2] = [&["lon", "long", "lng", "longitude"], &["lat", "latitude"]];
 
-/// What stands behind the names of longitude and latitude: degrees.
-const DEGREES: [&str; 11] = [
-    "deg",
-    "degree",
-    "degrees",
-    "°",
-    "dd",
-    "deg n",
-    "deg e",
-    "°n",
-    "°e",
-    "degrees_north",
-    "degrees_east",
+/// What stands behind the names of longitude and latitude: degrees, and the sense in which they grow.
+const DEGREES: [&str; 5] = ["deg", "degree", "degrees", "°", "dd"];
+const SENSES: [(&str, f64); 8] = [
+    ("north", 1.0),
+    ("n", 1.0),
+    ("east", 1.0),
+    ("e", 1.0),
+    ("south", -1.0),
+    ("s", -1.0),
+    ("west", -1.0),
+    ("w", -1.0),
 ];
 
 /// Words behind x or y that are no unit: of a chord, or of nothing.
@@ -159,12 +157,12 @@ impl FromStr for ColumnChoice {
 }
 
 /// The columns of the coordinates of points.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Coordinates {
     /// The columns of x, y and, in space, z, counted from 0.
     pub(super) places: Vec<usize>,
-    /// Whether x and y are longitude and latitude in degrees.
-    pub(super) are_on_earth: bool,
+    /// The signs of x and y where they are longitude and latitude in degrees: east and north count positive.
+    pub(super) on_earth: Option<[f64; 2]>,
 }
 
 impl Coordinates {
@@ -172,7 +170,7 @@ impl Coordinates {
     pub(super) fn of_lengths(places: Vec<usize>) -> Self {
         Self {
             places,
-            are_on_earth: false,
+            on_earth: None,
         }
     }
 }
@@ -217,11 +215,15 @@ impl ColumnNames {
         let lengths = lengths.map(Coordinates::of_lengths);
         lengths.or_else(|| {
             let [longitude, latitude] = POSITION.map(|words| self.only(words));
+            let [longitude, latitude] = [longitude?, latitude?];
+            let signs = [
+                self.sign_of_degrees(longitude)?,
+                self.sign_of_degrees(latitude)?,
+            ];
             Some(Coordinates {
-                places: vec![longitude?, latitude?],
-                are_on_earth: true,
+                places: vec![longitude, latitude],
+                on_earth: Some(signs),
             })
-            .filter(|it| it.places.iter().all(|place| self.is_in_degrees(*place)))
         })
     }
 
@@ -235,9 +237,9 @@ impl ColumnNames {
         places.next().filter(|_| places.next().is_none())
     }
 
-    fn is_in_degrees(&self, place: usize) -> bool {
-        let unit = self.unit(place);
-        unit.is_none_or(|unit| DEGREES.contains(&unit.to_lowercase().as_str()))
+    /// The sign of the degrees in a column; `None` if it has another unit.
+    fn sign_of_degrees(&self, place: usize) -> Option<f64> {
+        self.unit(place).map_or(Some(1.0), sign_of_degrees)
     }
 
     /// Whether there is a column of weights.
@@ -306,7 +308,21 @@ fn unit_behind<'a>(name: &'a str, word: &str) -> Option<Option<&'a str>> {
 
 /// Whether a word is a unit of length, or degrees.
 fn is_unit(word: &str) -> bool {
-    LengthUnit::of_symbol(word).is_some() || DEGREES.contains(&word.to_lowercase().as_str())
+    let is_sense = SENSES
+        .iter()
+        .any(|(sense, _)| word.eq_ignore_ascii_case(sense));
+    LengthUnit::of_symbol(word).is_some() || (!is_sense && sign_of_degrees(word).is_some())
+}
+
+/// The sign of degrees such as `deg`, `N`, `°N`, `deg W` or `degrees_east`: those to the south and to the west count
+/// negative. `None` for another unit.
+fn sign_of_degrees(unit: &str) -> Option<f64> {
+    let unit = unit.to_lowercase();
+    let sense = SENSES.iter().find_map(|(sense, sign)| {
+        let degrees = unit.strip_suffix(sense)?.trim_end_matches([' ', '_']);
+        (degrees.is_empty() || DEGREES.contains(&degrees)).then_some(*sign)
+    });
+    sense.or_else(|| DEGREES.contains(&unit.as_str()).then_some(1.0))
 }
 
 /// The word in brackets at the end of a name.
@@ -382,9 +398,12 @@ mod tests {
             "lat_deg,lng_deg,ele",
             "\"Lat.\",\"Lon.\"",
             "Latitude (deg N),Longitude (deg E)",
+            "latitude [degrees_north],longitude [degrees_east]",
+            "Latitude (N),Longitude (E)",
         ] {
             let found = told(line).unwrap_or_else(|| panic!("{line}"));
-            assert_eq!((found.places, found.are_on_earth), (vec![1, 0], true));
+            assert_eq!(found.places, [1, 0]);
+            assert_eq!(found.on_earth, Some([1.0, 1.0]));
         }
         for line in [
             "lat [m],lon [m]",
@@ -395,8 +414,12 @@ mod tests {
             assert_eq!(told(line), None, "{line}");
         }
         // Who has projected the positions already has done so for a reason.
-        let both = told("lat,lon,x,y").map(|it| (it.places, it.are_on_earth));
-        assert_eq!(both, Some((vec![2, 3], false)));
+        let both = told("lat,lon,x,y").map(|it| (it.places, it.on_earth));
+        assert_eq!(both, Some((vec![2, 3], None)));
+        let west = told("Latitude (N),Longitude (W)").and_then(|it| it.on_earth);
+        assert_eq!(west, Some([-1.0, 1.0]));
+        let south = told("lat (°S),lon (deg)").and_then(|it| it.on_earth);
+        assert_eq!(south, Some([1.0, -1.0]));
     }
 
     #[test]

@@ -153,7 +153,7 @@ impl<'a> PointReader<'a> {
             let error = ReferenceError::TooFewPoints { found };
             return Err(Place::line(section.line).problem(error.into()));
         }
-        let is_on_earth = layout.is_some_and(|layout| layout.coordinates.are_on_earth);
+        let is_on_earth = layout.is_some_and(|layout| layout.coordinates.on_earth.is_some());
         let (blocks, told) = match is_on_earth {
             true => (blocks, None),
             false => self.in_order(blocks),
@@ -276,9 +276,9 @@ impl<'a> PointReader<'a> {
         let places = coordinates.places.iter();
         let units = places.map(|place| common_unit(&rows, *place));
         let units: Vec<Option<String>> = units.collect();
-        let taken = match coordinates.are_on_earth {
-            true => self.take_unit(LengthUnit::Metre),
-            false => self.take_units(named, &coordinates.places, &units),
+        let taken = match coordinates.on_earth {
+            Some(_) => self.take_unit(LengthUnit::Metre),
+            None => self.take_units(named, &coordinates.places, &units),
         };
         taken.map_err(|it| place.problem(it))?;
         Ok(Some(Layout {
@@ -603,9 +603,9 @@ impl Layout {
         let weight = weight.first().copied();
         let weight = weight.map(|text| decimals.number(text, COLUMNS[WEIGHT], line));
         let [x, y, z] = point;
-        let point = match self.coordinates.are_on_earth {
-            true => position(Some(y), Some(x))?,
-            false => DVec3::new(x, y, z),
+        let point = match self.coordinates.on_earth {
+            Some([east, north]) => position(Some(north * y), Some(east * x))?,
+            None => DVec3::new(x, y, z),
         };
         Ok(Found::Row(Row {
             line,

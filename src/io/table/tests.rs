@@ -686,6 +686,9 @@ fn latitude_and_longitude_are_read_as_those_of_a_track() {
         assert_eq!(reading.unit, Some(LengthUnit::Metre));
         assert_eq!(reading.remarks, track.remarks, "{text}");
     }
+    let west = "Latitude (N),Longitude (W)\n54,-10\n54,-10.01\n54.02,-10.01\n";
+    let reading = TABLE.read(west.as_bytes()).unwrap();
+    assert_eq!(reading.references[0].points(), expected);
     // Two lists of one file lie in one plane.
     let two = "lat,lon\n54,10\n54,10.01\n\n54.01,10\n54.01,10.01\n";
     let reading = TABLE.read(two.as_bytes()).unwrap();
