@@ -4,11 +4,15 @@ use super::error::OperationError;
 use super::turned_over::turned_over;
 use crate::document::Curve;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
-use crate::geometry::{End, FloatPolygon, significant};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, significant};
 
 /// A curve that moves more than so many times as far as its ends has changed as a whole. Spreading a
 /// correction evenly over the polygon stays below.
 const MUCH: f64 = 10.0;
+
+/// A curve that moves by more than this share of its size, and more than twice as far as its ends, has changed as a
+/// whole, too: curvatures and directions say little about how far a curve may move.
+const FAR: f64 = 0.02;
 
 /// Say where a correction moves the curve far, turns it over, or leads it out of its plane.
 ///
@@ -21,14 +25,19 @@ pub(super) fn remarks_on_change(
     let before = &curve.polygon;
     let mut remarks = Vec::new();
     let targets = curve.targets.list().into_iter();
-    let asked = targets.map(|(end, target)| correction(before, end, &target));
+    let asked = targets
+        .clone()
+        .map(|(end, target)| correction(before, end, &target));
     let asked = asked.fold(0.0, f64::max);
+    let shifts = targets.map(|(end, target)| before.end_jet(end).point.distance(target.point));
+    let shift = shifts.fold(0.0, f64::max);
     let moved = before.deviation(after)?;
+    let size = BezierPolygon::from_float(before).size();
     let advice = "lock the vertices that are to stay with “Also locked” (--locked)";
-    if moved > MUCH * asked {
-        let [moved, asked] = [moved, asked].map(|length| significant(length, 3));
+    if moved > MUCH * asked || moved > (FAR * size).max(2.0 * shift) {
+        let [moved, shift] = [moved, shift].map(|length| significant(length, 3));
         remarks.push(format!(
-            "The curve moves by up to {moved}, and the ends are corrected by {asked}: {advice}"
+            "The curve moves by up to {moved}, its ends by {shift}: {advice}"
         ));
     }
     if let Some(turned) = turned_over(before, after) {
