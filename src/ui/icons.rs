@@ -62,6 +62,7 @@ fn of_command(command: Command) -> Option<Icon> {
         Command::ZoomOut => Icon::ZoomOut,
         Command::ToggleSnapping => Icon::Magnet,
         Command::Follow(Follow::InHarmony) => Icon::Waves,
+        Command::ToggleClosedFollow => Icon::Link,
         Command::Follow(Follow::Softly) => Icon::Blend,
         Command::ToggleKeeping => Icon::ShieldCheck,
         Command::ToggleLayer(layer) => of_layer(layer),

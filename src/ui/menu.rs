@@ -158,6 +158,7 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         command(Command::ToggleSnapping),
         command(Command::Follow(Follow::InHarmony)),
         command(Command::Follow(Follow::Softly)),
+        command(Command::ToggleClosedFollow),
         command(Command::ToggleKeeping),
         Divider,
         Entry::Submenu("Document unit", units()),

@@ -150,6 +150,10 @@ fn the_closed_polygon_and_the_end_fit_cannot_move_it() {
     let viewport = script.editor.view().viewport();
     let at = viewport.to_screen(viewport.flatten(closed.vertices()[0]));
     script.drag(at, at + 30.0);
+    assert_eq!(script.polygon().vertex(0), before.vertex(0));
+    script.command(Command::Undo);
+    script.command(Command::ToggleClosedFollow);
+    script.drag(at, at + 30.0);
     assert_eq!(script.polygon(), before);
     assert!(script.message().contains("locked"), "{}", script.message());
 

@@ -9,6 +9,7 @@ mod background;
 mod between;
 mod commands;
 mod crowding;
+mod curve_drags;
 mod deleting;
 mod documents;
 mod dragging;

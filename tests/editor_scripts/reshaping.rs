@@ -20,6 +20,7 @@ fn at_closed(script: &Script, index: usize) -> DVec2 {
 #[test]
 fn dragging_a_closed_vertex_moves_it_alone_and_the_float_polygon_follows() {
     let mut script = Script::example("arc");
+    script.command(Command::ToggleClosedFollow);
     let before = script.polygon();
     let closed = ClampedPolygon::from_float(&before);
     let at = at_closed(&script, 9);
@@ -256,18 +257,4 @@ fn why_a_closed_vertex_cannot_go_there_is_told_until_it_can_go_on() {
     assert_ne!(script.polygon(), shown);
     script.release(at + DVec2::new(6.0, 0.0));
     assert_eq!(script.steps(), 1);
-}
-
-#[test]
-fn a_periodic_curve_says_why_its_closed_polygon_cannot_be_dragged() {
-    let mut script = Script::example("periodic");
-    let before = script.polygon();
-    let at = at_closed(&script, 0);
-    script.drag(at, at + 40.0);
-    assert_eq!(script.polygon(), before);
-    assert!(
-        script.message().contains("periodic"),
-        "{}",
-        script.message()
-    );
 }

@@ -119,6 +119,9 @@ impl Watch {
         check_selection(window.document(), window.selection())?;
         check_view(window)?;
         check_matches(window)?;
+        // What a joining operation shows may come while a key or a command does nothing.
+        let nothing = matches!(done, Done::Transform | Done::Repeat | Done::Nothing);
+        let may_join = nothing && window.trial().is_some_and(joins);
         let replaced = done == Done::Replace
             && window.undo_steps() == 0
             && !window.can_redo()
@@ -136,14 +139,12 @@ impl Watch {
                 None if self.trying => self.states[self.at].bits.clone(),
                 None => self.shown.bits.clone(),
             };
-            // What a joining operation shows may come while a key is pressed that does nothing.
-            let may_join =
-                matches!(done, Done::Transform | Done::Repeat) && window.trial().is_some_and(joins);
             let made = if may_join { Done::Join } else { done };
             check_protected(&before, &shown.bits, made)?;
         }
         self.follow(window, done, &shown)?;
-        if matches!(done, Done::Nothing | Done::Look) && shown.bits != self.shown.bits {
+        let does_nothing = matches!(done, Done::Nothing | Done::Look) && !may_join;
+        if does_nothing && shown.bits != self.shown.bits {
             return Err("a command that is not offered, or a value refused, did something".into());
         }
         let moves = matches!(done, Done::Transform | Done::Repeat);

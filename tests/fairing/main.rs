@@ -6,6 +6,7 @@ mod common;
 mod corrections;
 mod following;
 mod harmonising;
+mod least_change;
 mod through_ends;
 
 use batten::geometry::end_correction::{EndDifference, EndTarget};

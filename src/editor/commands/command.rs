@@ -69,6 +69,8 @@ pub enum Command {
     ToggleSnapping,
     /// Let the neighbours of dragged vertices follow, or not.
     Follow(Follow),
+    /// Let the other closed vertices follow a dragged one, or stay.
+    ToggleClosedFollow,
     /// Let no drag add a feature, or let drags be free.
     ToggleKeeping,
     /// Take a tool into the hand.
@@ -127,6 +129,7 @@ impl Command {
                 | Self::ToggleBands
                 | Self::ToggleSnapping
                 | Self::Follow(_)
+                | Self::ToggleClosedFollow
                 | Self::ToggleKeeping
         )
     }
@@ -164,6 +167,7 @@ impl Command {
         all.push(Self::ToggleBands);
         all.extend([Self::ToggleSnapping, Self::ToggleKeeping]);
         all.extend(Follow::ALL.map(Self::Follow));
+        all.push(Self::ToggleClosedFollow);
         all.extend(ToolKind::ALL.map(Self::Tool));
         all
     }
@@ -203,6 +207,7 @@ impl Command {
             Self::ToggleBands => "Feature bands on the canvas",
             Self::ToggleSnapping => "Snapping",
             Self::Follow(follow) => follow.label(),
+            Self::ToggleClosedFollow => "Closed vertices follow",
             Self::ToggleKeeping => "Keep features",
             Self::Tool(tool) => tool.label(),
         };
@@ -253,6 +258,9 @@ impl Command {
                 "Let dragged points snap to the grid, to vertices and to targets"
             }
             Self::Follow(follow) => follow.tooltip(),
+            Self::ToggleClosedFollow => {
+                "Let the other vertices of the closed S-polygon follow a dragged one, or stay"
+            }
             Self::ToggleKeeping => {
                 "Let no edit of vertices add a curvature extremum or an inflection"
             }

@@ -123,6 +123,10 @@ impl Editor {
             Command::ToggleBands => self.view.bands_only_plotted ^= true,
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
             Command::Follow(follow) => self.hand.following.toggle(follow),
+            Command::ToggleClosedFollow => {
+                let following = &mut self.hand.following;
+                following.closed_stay = !following.closed_stay;
+            }
             Command::ToggleKeeping => self.hand.keeps = !self.hand.keeps,
             _ => {}
         }

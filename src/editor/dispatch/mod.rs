@@ -96,7 +96,9 @@ impl Editor {
                     let active = self.active().and_then(|id| self.document().curve(id));
                     let vertices = active.map_or(0, |curve| curve.polygon.vertices().len());
                     let most = vertices.saturating_sub(1);
-                    self.hand.following.turn(factor, stiffer, most);
+                    if let Some(followers) = self.hand.turned_followers() {
+                        self.hand.following.turn(followers, factor, stiffer, most);
+                    }
                     self.deliver(Gesture::Drag(at), repeats);
                 }
                 Gesture::Zoom(at, factor) => self.view.viewport.zoom(at, factor),
@@ -255,6 +257,7 @@ impl Editor {
                     let edits = self.hand.kept(edits, &self.workspace, &self.view.analyses);
                     let refusal = self.workspace.update(edits).err().map(Refusal::from);
                     Message::tell_update(&mut self.message, refusal);
+                    self.hand.find_added(&self.workspace, &self.view.analyses);
                 }
                 Effect::Commit => {
                     let analyses = &self.view.analyses;

@@ -3,13 +3,17 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
+use thiserror::Error;
 
-use crate::document::{Curve, CurveId, Document, Edit, EditError};
+use crate::document::{Curve, CurveId, Document, Edit, EditError, quoted};
 use crate::editor::selection::VertexId;
 use crate::geometry::end_correction::EndTarget;
-use crate::geometry::fairing::following::{Moved, follow_in_harmony, follow_softly, follow_target};
+use crate::geometry::fairing::following::{follow_softly, follow_target};
 use crate::geometry::fairing::joint_correction::CorrectionError;
-use crate::geometry::{End, FloatPolygon, PolygonError, counted, significant};
+use crate::geometry::fairing::least_change::{
+    Dragged, LeastChangeError, Reach, least_change, magnification,
+};
+use crate::geometry::{ClampedPolygon, End, FloatPolygon, counted, significant};
 
 /// How neighbours follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -39,20 +43,24 @@ impl Follow {
                 "Let the neighbours of dragged vertices follow, the farther the less; the wheel sets how many"
             }
             Self::InHarmony => {
-                "Let the neighbours of dragged vertices follow so that the polygon stays harmonious, with the ends held, and an end its dragged target; the wheel sets how many, with Shift how stiff they are"
+                "Let the neighbours of dragged vertices follow with the least change; the wheel sets how many"
             }
         }
     }
 }
 
-/// Hold how the neighbours of dragged vertices follow.
+/// Hold how the neighbours of dragged vertices and points follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Following {
-    /// How they follow, if they do.
+    /// How those of dragged vertices follow, if they do.
     pub follow: Option<Follow>,
-    /// How many neighbours follow on each side; the wheel turns it by fractions.
+    /// Whether the other vertices of the closed S-polygon stay where one of them is dragged.
+    pub closed_stay: bool,
+    /// How many neighbours of vertices follow on each side; the wheel turns it by fractions.
     span: f64,
-    /// How much their own moves weigh beside harmony.
+    /// The same for a point of the curve or a closed vertex, beside the vertices that it depends on.
+    point_span: f64,
+    /// How much the neighbours' own moves weigh.
     stiffness: f64,
 }
 
@@ -60,10 +68,65 @@ impl Default for Following {
     fn default() -> Self {
         Self {
             follow: None,
+            closed_stay: false,
             span: 5.0,
+            point_span: 1.0,
             stiffness: 1e-4,
         }
     }
+}
+
+/// Followers whose number the wheel sets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Followers {
+    /// The neighbours of vertices.
+    OfVertices,
+    /// The vertices near a point of the curve, or near a closed vertex.
+    OfPoint,
+}
+
+/// A point that is dragged, which vertices of the float polygon follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DraggedPoint {
+    /// What it is.
+    pub kind: PointKind,
+    /// The least number of vertices on each side that follow beside those that it depends on: where they crowd on the
+    /// canvas, fewer would make a spike.
+    pub least_span: usize,
+}
+
+/// What a dragged point is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointKind {
+    /// A vertex of the closed S-polygon.
+    Clamped(usize),
+    /// The point of the curve at a parameter.
+    OnCurve(f64),
+}
+
+impl DraggedPoint {
+    fn by(self, by: DVec3) -> Dragged {
+        match self.kind {
+            PointKind::Clamped(index) => Dragged::Clamped(index, by),
+            PointKind::OnCurve(u) => Dragged::Point(u, by),
+        }
+    }
+}
+
+/// Why a curve does not follow.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FollowError {
+    /// The curve cannot be edited so.
+    #[error(transparent)]
+    Edit(#[from] EditError),
+    /// Too few of its vertices are free.
+    #[error("{}: {error}", quoted(.name))]
+    Least {
+        /// The curve's name.
+        name: String,
+        /// The reason.
+        error: LeastChangeError,
+    },
 }
 
 /// The most neighbours on each side.
@@ -81,7 +144,7 @@ impl Following {
         self.span.round() as usize
     }
 
-    /// How much the neighbours' own moves weigh beside harmony.
+    /// How much the neighbours' own moves weigh.
     pub fn stiffness(&self) -> f64 {
         self.stiffness
     }
@@ -91,15 +154,31 @@ impl Following {
         self.follow = Some(follow).filter(|_| self.follow != Some(follow));
     }
 
-    /// Let more or fewer neighbours follow, by a factor as of a zoom, up to `most`; or make them
-    /// stiffer.
-    pub fn turn(&mut self, factor: f64, stiffer: bool, most: usize) {
-        if stiffer {
-            let turned = self.stiffness * factor.powi(STIFFNESS_TURN);
-            self.stiffness = turned.clamp(STIFFNESS[0], STIFFNESS[1]);
-        } else {
-            self.span = (self.span * factor).min(most as f64).clamp(1.0, MOST);
-        }
+    /// Let more or fewer vertices follow, by a factor as of a zoom, up to `most`; or make those of vertices stiffer.
+    pub(in crate::editor) fn turn(
+        &mut self,
+        followers: Followers,
+        factor: f64,
+        stiffer: bool,
+        most: usize,
+    ) {
+        let span = match followers {
+            Followers::OfVertices if stiffer => {
+                let turned = self.stiffness * factor.powi(STIFFNESS_TURN);
+                self.stiffness = turned.clamp(STIFFNESS[0], STIFFNESS[1]);
+                return;
+            }
+            Followers::OfVertices => &mut self.span,
+            Followers::OfPoint => &mut self.point_span,
+        };
+        *span = (*span * factor).min(most as f64).clamp(1.0, MOST);
+    }
+
+    /// Say how many vertices follow a point of a curve.
+    pub fn point_words(&self, polygon: &FloatPolygon, point: DraggedPoint) -> String {
+        let following = polygon.degree() + 1 + 2 * self.span_of(point);
+        let following = following.min(polygon.vertices().len());
+        format!("{} follow", counted(following, "vertex", "vertices"))
     }
 
     /// Say how the neighbours follow; `None` if they do not.
@@ -117,12 +196,12 @@ impl Following {
     /// Turn moved vertices into edits, one a curve, their neighbours following.
     ///
     /// # Errors
-    /// [`EditError::Polygon`] if a vertex would leave the range of numbers.
+    /// [`FollowError`] if a vertex would leave the range of numbers.
     pub fn edits(
         &self,
         before: &Document,
         moved: impl IntoIterator<Item = (VertexId, DVec3)>,
-    ) -> Result<Vec<Edit>, EditError> {
+    ) -> Result<Vec<Edit>, FollowError> {
         let mut curves: BTreeMap<CurveId, Vec<(usize, DVec3)>> = BTreeMap::new();
         for ((curve, index), place) in moved {
             curves.entry(curve).or_default().push((index, place));
@@ -131,35 +210,69 @@ impl Following {
             let Some(follow) = self.follow else {
                 return Ok(Edit::MoveVertices { curve, moves });
             };
-            self.edit(before, curve, |polygon, locked| match follow {
-                Follow::Softly => follow_softly(polygon, &moves, self.span(), locked),
+            edit(before, curve, |polygon, locked| match follow {
+                Follow::Softly => Ok(follow_softly(polygon, &moves, self.span(), locked)?),
                 Follow::InHarmony => {
-                    let moved = Moved::Vertices(moves.clone());
-                    follow_in_harmony(polygon, &moved, self.span(), self.stiffness, locked)
+                    let dragged = Dragged::Vertices(moves.clone());
+                    let reach = Reach {
+                        span: self.span(),
+                        stiffness: self.stiffness,
+                        locked,
+                    };
+                    least_change(polygon, &dragged, &reach)
                 }
             })
         });
         edits.collect()
     }
 
-    /// Put a vertex of the closed S-polygon somewhere else: the float S-polygon follows, in harmony
-    /// or alone.
+    /// Drag a point of a curve: the vertices near it follow with the least change. A closed vertex whose others stay
+    /// takes the exact change of the float polygon instead.
     ///
     /// # Errors
-    /// As [`Following::edits`].
-    pub fn clamped_edit(
+    /// [`FollowError`].
+    pub fn point_edit(
         &self,
         before: &Document,
-        (curve, index): VertexId,
-        place: DVec3,
-    ) -> Result<Edit, EditError> {
-        self.edit(before, curve, |polygon, locked| match self.follow {
-            Some(Follow::InHarmony) => {
-                let moved = Moved::Clamped(index, place);
-                follow_in_harmony(polygon, &moved, self.span(), self.stiffness, locked)
+        curve: CurveId,
+        point: DraggedPoint,
+        by: DVec3,
+    ) -> Result<Edit, FollowError> {
+        edit(before, curve, |polygon, locked| match point.kind {
+            PointKind::Clamped(index) if self.closed_stay => {
+                let clamped = ClampedPolygon::from_float(polygon);
+                let from = clamped.vertices().get(index).copied();
+                Ok(polygon.with_clamped_vertex(index, from.unwrap_or_default() + by)?)
             }
-            Some(Follow::Softly) | None => polygon.with_clamped_vertex(index, place),
+            _ => least_change(polygon, &point.by(by), &self.reach_of(point, locked)),
         })
+    }
+
+    /// Measure how many times as far as a dragged point its vertices move, at most.
+    ///
+    /// # Errors
+    /// [`LeastChangeError`] if too few vertices are free.
+    pub fn point_magnification(
+        &self,
+        curve: &Curve,
+        point: DraggedPoint,
+    ) -> Result<f64, LeastChangeError> {
+        let locked: Vec<usize> = curve.locked_vertices.iter().collect();
+        let reach = self.reach_of(point, &locked);
+        magnification(&curve.polygon, &point.by(DVec3::ZERO), &reach)
+    }
+
+    /// The reach of a dragged point, which has no stiffness.
+    fn reach_of<'a>(&self, point: DraggedPoint, locked: &'a [usize]) -> Reach<'a> {
+        Reach {
+            span: self.span_of(point),
+            stiffness: 0.0,
+            locked,
+        }
+    }
+
+    fn span_of(&self, point: DraggedPoint) -> usize {
+        (self.point_span.round() as usize).max(point.least_span)
     }
 
     /// Whether the ends of curves follow their targets while these are dragged: in harmony alone, as a
@@ -168,7 +281,7 @@ impl Following {
         self.follow == Some(Follow::InHarmony)
     }
 
-    /// Bring an end to a target, its neighbours following in harmony.
+    /// Bring an end to a target, its neighbours following with the least change.
     ///
     /// # Errors
     /// [`CorrectionError`] if the target cannot be met.
@@ -179,22 +292,21 @@ impl Following {
         target: &EndTarget,
     ) -> Result<FloatPolygon, CorrectionError> {
         let locked: Vec<usize> = curve.locked_vertices.iter().collect();
-        let (span, stiffness) = (self.span(), self.stiffness);
-        follow_target(&curve.polygon, end, target, span, stiffness, &locked)
+        follow_target(&curve.polygon, end, target, self.span(), &locked)
     }
+}
 
-    fn edit(
-        &self,
-        before: &Document,
-        id: CurveId,
-        reshape: impl FnOnce(&FloatPolygon, &[usize]) -> Result<FloatPolygon, PolygonError>,
-    ) -> Result<Edit, EditError> {
-        let curve = before.curve(id).ok_or(EditError::NoSuchCurve)?;
-        let locked: Vec<usize> = curve.locked_vertices.iter().collect();
-        let polygon = reshape(&curve.polygon, &locked).map_err(|error| EditError::Polygon {
-            name: curve.name.clone(),
-            error,
-        })?;
-        Ok(Edit::SetPolygon { curve: id, polygon })
-    }
+/// Reshape a curve whose locked vertices stay.
+fn edit(
+    before: &Document,
+    id: CurveId,
+    reshape: impl FnOnce(&FloatPolygon, &[usize]) -> Result<FloatPolygon, LeastChangeError>,
+) -> Result<Edit, FollowError> {
+    let curve = before.curve(id).ok_or(EditError::NoSuchCurve)?;
+    let locked: Vec<usize> = curve.locked_vertices.iter().collect();
+    let polygon = reshape(&curve.polygon, &locked).map_err(|error| FollowError::Least {
+        name: curve.name.clone(),
+        error,
+    })?;
+    Ok(Edit::SetPolygon { curve: id, polygon })
 }

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use crate::editor::hand::cycle::Cycle;
-use crate::editor::hand::following::Following;
+use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::GestureMachine;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::keeping::Keeping;
@@ -13,7 +13,7 @@ use crate::editor::hand::typed_point::TypedPoint;
 use crate::editor::selection::Selection;
 use crate::editor::view::View;
 use crate::editor::view::layers::{Layer, Layers};
-use crate::editor::view::overlay::Hovering;
+use crate::editor::view::overlay::{Closed, Hovering};
 use crate::editor::view::shown::Shown;
 use crate::editor::workspace::Workspace;
 
@@ -101,6 +101,7 @@ impl Hand {
             snapping: self.snapping,
             nudge_step: self.nudge_step(),
             following: self.following,
+            added: self.keeping.added(),
             settings: &self.settings,
             pointer: pointer.map(|at| view.viewport.to_model(at)),
             typed: self.typed,
@@ -137,7 +138,10 @@ impl Hand {
         );
         match points_at_things && !self.gestures.is_panning() {
             true => Hovering::Document {
-                closed: tool == ToolKind::Select,
+                closed: (tool == ToolKind::Select).then_some(match self.following.closed_stay {
+                    true => Closed::Stay,
+                    false => Closed::Follow,
+                }),
             },
             false => Hovering::Nothing,
         }
@@ -174,9 +178,15 @@ impl Hand {
         self.following
     }
 
-    /// Whether the wheel sets how the neighbours of what is dragged follow.
+    /// Which followers of what is dragged the wheel sets.
+    pub(in crate::editor) fn turned_followers(&self) -> Option<Followers> {
+        let turned = self.tools.used().wheel_turns(&self.following);
+        turned.filter(|_| self.is_dragging())
+    }
+
+    /// Whether the wheel sets how many vertices follow what is dragged.
     pub fn turns_following(&self) -> bool {
-        self.is_dragging() && self.tools.used().wheel_turns(&self.following)
+        self.turned_followers().is_some()
     }
 
     /// Whether a drag keeps features: it adds no curvature extremum and no inflection.

@@ -27,6 +27,8 @@ pub struct Keeping {
     good: Places,
     /// Why the vertices are not where the pointer has them.
     held_back: Option<String>,
+    /// The features that the drag adds where it is not held back.
+    added: Option<String>,
     /// Whether a frame must not wait for all places: without a window every one is tried.
     hurries: bool,
 }
@@ -65,6 +67,20 @@ impl Keeping {
     /// Why the vertices are not where the pointer has them, in words.
     pub fn held_back(&self) -> Option<&str> {
         self.held_back.as_deref()
+    }
+
+    /// The features that the drag adds, in words.
+    pub fn added(&self) -> Option<&str> {
+        self.added.as_deref()
+    }
+
+    /// Find what a drag that is not held back adds to `settled`, the document as it was when the drag began.
+    pub fn find_added(&mut self, after: &Document, settled: &Document, known: KnownFeatures) {
+        let proved = self.curves.prove(settled, after, known);
+        self.added = match proved {
+            Err(Obstacle::Added(_, added)) => Some(added),
+            _ => None,
+        };
     }
 
     /// Change the edits of a drag so that nothing is added to `settled`, the document as it was when

@@ -26,6 +26,20 @@ impl Hand {
         self.keeping.keep(edits, settled, &try_out, &known)
     }
 
+    /// Find what a drag that other vertices follow adds, unless features are kept.
+    pub(in crate::editor) fn find_added(
+        &mut self,
+        workspace: &Workspace,
+        analyses: &AnalysisCache,
+    ) {
+        if self.keeps_features() || !self.turns_following() {
+            return;
+        }
+        let known = known_features(analyses);
+        let (after, settled) = (workspace.document(), workspace.settled());
+        self.keeping.find_added(after, settled, &known);
+    }
+
     /// End a drag, or the preview of a field, and keep it as one step. Where features are kept, a match that takes
     /// long to meet is met only if that adds none.
     pub(in crate::editor) fn commit_kept(

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::analysis::{ReferenceAnalysis, SampledCurve};
 use crate::document::CurveId;
 use crate::editor::view::osculating_circle::OsculatingCircle;
-use crate::editor::view::overlay::{Hovering, Overlay};
+use crate::editor::view::overlay::{Closed, Hovering, Overlay};
 use crate::editor::view::scene::HoverScene;
 use crate::editor::view::sight::Sight;
 use crate::geometry::{coordinate, figure, significant};
@@ -32,8 +32,10 @@ impl Sight<'_> {
         if let Some(vertex) = self.vertex(place) {
             return self.vertex_hover(vertex);
         }
-        if let Some((id, index)) = self.clamped_vertex(place).filter(|_| closed) {
-            return self.clamped_hover(id, index);
+        if let Some(closed) = closed
+            && let Some((id, index)) = self.clamped_vertex(place)
+        {
+            return self.clamped_hover(id, index, closed);
         }
         if let Some((id, feature)) = self.feature(place) {
             let mut hover = self.curve_hover(id, feature.middle);
@@ -87,13 +89,14 @@ impl Sight<'_> {
         })
     }
 
-    fn clamped_hover(self, id: CurveId, index: usize) -> Option<HoverScene> {
+    fn clamped_hover(self, id: CurveId, index: usize, closed: Closed) -> Option<HoverScene> {
         let analysis = self.view.analyses.get(id)?;
         let vertex = *analysis.clamped().vertices().get(index)?;
         let place = self.coordinates(vertex, !analysis.is_planar());
         let mut text = format!("Closed vertex {index}\n{place}");
         let polygon = &analysis.curve().polygon;
-        if let Some(times) = polygon.clamped_vertex_amplification(index) {
+        let times = polygon.clamped_vertex_amplification(index);
+        if let Some(times) = times.filter(|_| closed == Closed::Stay) {
             text += &format!("\nfloat × {}", significant(times, 3));
         }
         Some(HoverScene::Handle {

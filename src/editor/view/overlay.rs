@@ -46,7 +46,16 @@ pub enum Hovering {
     Dragged((CurveId, usize)),
     /// Vertices, features and curves.
     Document {
-        /// Whether vertices of the closed S-polygon too.
-        closed: bool,
+        /// What a drag of a closed vertex does to the others; `None` where it takes none.
+        closed: Option<Closed>,
     },
+}
+
+/// What the other closed vertices do when one is dragged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Closed {
+    /// They follow with the least change.
+    Follow,
+    /// They stay, and the float S-polygon moves many times as far.
+    Stay,
 }

@@ -67,6 +67,12 @@ impl JetWeights {
         Self { vertices, weights }
     }
 
+    /// The weights in the point.
+    pub(super) fn of_value(self) -> Vec<(usize, f64)> {
+        let weights = self.weights.into_iter().map(|[weight, ..]| weight);
+        self.vertices.into_iter().zip(weights).collect()
+    }
+
     /// Evaluate the point and its derivatives.
     pub(super) fn jet(&self, vertices: &[DVec3]) -> [DVec3; ORDERS] {
         let mut jet = [DVec3::ZERO; ORDERS];

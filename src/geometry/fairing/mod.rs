@@ -16,6 +16,7 @@ mod harmonised;
 pub mod harmonising;
 mod jet_weights;
 pub mod joint_correction;
+pub mod least_change;
 mod least_squares;
 pub mod near_end;
 pub(super) mod near_points;

@@ -9,7 +9,7 @@ use super::end_fit_subject::{Handle, Subject};
 use super::tool::{Context, Cursor, Effect, Tool, followers_label, named_snap};
 use crate::document::{Edit, EndMatch, MatchPlace};
 use crate::editor::hand::end_fit::{nearest_other_end, other_ends};
-use crate::editor::hand::following::Following;
+use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::view::scene::Mark;
@@ -76,12 +76,13 @@ impl Tool for EndFitTool {
         subject.is_ok_and(|subject| subject.handle(place, context).is_some())
     }
 
-    fn wheel_turns(&self, following: &Following) -> bool {
+    fn wheel_turns(&self, following: &Following) -> Option<Followers> {
         let drags_target = matches!(
             self.state,
             State::Target { .. } | State::Direction | State::Circle
         );
-        drags_target && following.follows_targets()
+        let follows = drags_target && following.follows_targets();
+        follows.then_some(Followers::OfVertices)
     }
 
     fn hint(&self, context: &Context) -> String {
@@ -101,7 +102,7 @@ impl Tool for EndFitTool {
             && self.follows(context)
         {
             return format!(
-                "The {name} follows its target, {words}: the wheel sets how many, with Shift how stiff they are; Esc cancels"
+                "The {name} follows its target, {words}: the wheel sets how many; Esc cancels"
             );
         }
         match &self.state {
@@ -197,7 +198,7 @@ fn without_subject(gesture: Gesture, reason: String, context: &Context) -> Vec<E
 impl EndFitTool {
     /// Whether the end follows the target that is dragged.
     fn follows(&self, context: &Context) -> bool {
-        self.wheel_turns(&context.following)
+        self.wheel_turns(&context.following).is_some()
     }
 
     /// The snap of a dragged target.

@@ -7,6 +7,7 @@ mod end_fit_subject;
 mod measure;
 mod measured;
 mod move_drag;
+mod moving_point;
 mod reference_drags;
 mod select;
 mod settings;

@@ -55,7 +55,7 @@ impl MoveDrag {
         self.by
     }
 
-    /// Tell of a point that was dragged from somewhere to somewhere, with a remark.
+    /// Tell of a point that was dragged from somewhere to somewhere, with a remark and what the drag adds.
     pub fn readout(
         &self,
         [from, to]: [DVec3; 2],
@@ -64,13 +64,14 @@ impl MoveDrag {
         context: &Context,
     ) -> DragReadout {
         let name = self.snap.as_ref().map(|snap| snap.name.clone());
+        let added = context.added.map(str::to_owned);
         DragReadout {
             at: context.viewport.flatten(to),
             way: context.viewport.flatten(to - from),
             by: to - from,
             to,
             in_space,
-            remarks: name.into_iter().chain(remark).collect(),
+            remarks: name.into_iter().chain(remark).chain(added).collect(),
         }
     }
 

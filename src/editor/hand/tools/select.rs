@@ -5,19 +5,20 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::move_drag::MoveDrag;
+use super::moving_point::MovingPoint;
 use super::reference_drags::{Frame, ReferenceDrag, nudged};
 use super::tool::{Context, Cursor, Effect, Tool, move_edits};
 use crate::document::{CurveId, Document, EditError};
 use crate::editor::hand::clean_step::stepped;
-use crate::editor::hand::following::{Follow, Following};
+use crate::editor::hand::following::{Follow, Followers, Following, PointKind};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::selection::VertexId;
 use crate::editor::view::Look;
-use crate::editor::view::hit::{LegHit, REACH};
+use crate::editor::view::hit::{CurveHit, LegHit, REACH};
 use crate::editor::view::scene::Mark;
-use crate::geometry::{counted, significant};
+use crate::geometry::counted;
 
 /// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
 const LEG_REACH: f64 = 0.5 * REACH;
@@ -34,8 +35,8 @@ enum State {
     Idle,
     /// Vertices are dragged.
     Moving(Moving),
-    /// A vertex of the closed S-polygon is dragged.
-    MovingClamped(MovingClamped),
+    /// A vertex of the closed S-polygon, or a point of the curve, is dragged.
+    MovingPoint(MovingPoint),
     /// A reference is moved, rotated or scaled.
     Reference(ReferenceDrag),
     /// A box is drawn, by its corners on the canvas.
@@ -79,41 +80,6 @@ impl Moving {
     }
 }
 
-/// A drag of a vertex of the closed S-polygon.
-#[derive(Debug)]
-struct MovingClamped {
-    drag: MoveDrag,
-    /// Where the vertex was.
-    from: DVec3,
-    vertex: VertexId,
-    planar: bool,
-}
-
-impl MovingClamped {
-    fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
-        let by = self.drag.go_on(place, context);
-        let to = self.from + context.movement(by, self.planar);
-        let following = &context.following;
-        let edit = following.clamped_edit(context.before, self.vertex, to);
-        Effect::preview(edit.map(|edit| vec![edit]))
-    }
-
-    fn marks(&self, context: &Context) -> Vec<Mark> {
-        let now = clamped_vertex(self.vertex, context);
-        let remark = context.following.words();
-        let readout = now.map(|now| {
-            let ends = [self.from, now];
-            self.drag.readout(ends, !self.planar, remark, context)
-        });
-        self.drag.marks(readout, context)
-    }
-}
-
-fn clamped_vertex((id, index): VertexId, context: &Context) -> Option<DVec3> {
-    let clamped = context.hits.view.analyses.get(id)?.clamped();
-    clamped.vertices().get(index).copied()
-}
-
 impl Tool for SelectTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
         if let Gesture::Drag(place) = gesture {
@@ -128,10 +94,10 @@ impl Tool for SelectTool {
                 let staying = context.staying().map(Effect::Say);
                 [Effect::Commit].into_iter().chain(staying).collect()
             }
-            (State::MovingClamped(_) | State::Reference(_), Gesture::DragEnd(_)) => {
+            (State::MovingPoint(_) | State::Reference(_), Gesture::DragEnd(_)) => {
                 vec![Effect::Commit]
             }
-            (State::Moving(_) | State::MovingClamped(_) | State::Reference(_), Gesture::Cancel) => {
+            (State::Moving(_) | State::MovingPoint(_) | State::Reference(_), Gesture::Cancel) => {
                 vec![Effect::Abort]
             }
             (State::Boxing { from, .. }, Gesture::DragEnd(to)) => {
@@ -162,10 +128,14 @@ impl Tool for SelectTool {
         takes_vertex(place, context)
             || takes_reference(place, context)
             || context.hits.leg(place, LEG_REACH).is_some()
+            || point_of_curve(place, context).is_some()
     }
 
-    fn wheel_turns(&self, following: &Following) -> bool {
-        following.follow.is_some()
+    fn wheel_turns(&self, following: &Following) -> Option<Followers> {
+        match &self.state {
+            State::MovingPoint(moving) => moving.wheel_turns(following),
+            _ => following.follow.map(|_| Followers::OfVertices),
+        }
     }
 
     fn hint(&self, context: &Context) -> String {
@@ -189,11 +159,7 @@ impl Tool for SelectTool {
                     if context.snapping { "off" } else { "on" },
                 )
             }
-            State::MovingClamped(MovingClamped { vertex, .. }) => format!(
-                "Moving vertex {} of the closed S-polygon: {}; Esc cancels",
-                vertex.1,
-                amplified(*vertex, context)
-            ),
+            State::MovingPoint(moving) => moving.hint(context),
             State::Reference(drag) => drag.hint(context.snapping),
             State::Boxing { .. } => {
                 "Release to select what is in the box; Shift adds to the selection".into()
@@ -223,7 +189,7 @@ impl Tool for SelectTool {
                 } else if context.document.is_empty() {
                     "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
                 } else {
-                    "Drag a vertex to shape the curve; drag over empty space selects by a box"
+                    "Drag a vertex, or the curve itself; drag over empty space selects by a box"
                         .into()
                 }
             }
@@ -239,7 +205,7 @@ impl Tool for SelectTool {
                 ])]
             }
             State::Moving(moving) => moving.marks(context),
-            State::MovingClamped(moving) => moving.marks(context),
+            State::MovingPoint(moving) => moving.marks(context),
             State::Reference(drag) => drag.marks(context),
             State::Idle => {
                 let frame = Frame::of(context);
@@ -253,10 +219,16 @@ impl Tool for SelectTool {
         let place = context.place();
         match self.state {
             State::Moving(_)
-            | State::MovingClamped(_)
+            | State::MovingPoint(_)
             | State::Reference(_)
             | State::Scaling { .. } => Cursor::Move,
-            State::Idle if place.is_some_and(|place| takes_vertex(place, context)) => Cursor::Move,
+            State::Idle
+                if place.is_some_and(|place| {
+                    takes_vertex(place, context) || point_of_curve(place, context).is_some()
+                }) =>
+            {
+                Cursor::Move
+            }
             State::Idle if place.is_some_and(|place| takes_reference(place, context)) => {
                 Cursor::Grab
             }
@@ -270,7 +242,7 @@ impl SelectTool {
         match &mut self.state {
             State::Idle => Vec::new(),
             State::Moving(moving) => vec![moving.drag(place, context)],
-            State::MovingClamped(moving) => vec![moving.drag(place, context)],
+            State::MovingPoint(moving) => vec![moving.drag(place, context)],
             State::Reference(drag) => vec![drag.drag(place, context)],
             State::Boxing { to, .. } => {
                 *to = place;
@@ -295,11 +267,16 @@ impl SelectTool {
         if let Some(vertex) = context.hits.vertex(place) {
             return self.start_moving(place, vertex, context);
         }
-        if let Some(vertex) = context.hits.clamped_vertex(place) {
-            return self.start_moving_clamped(place, vertex, context);
+        if let Some((curve, index)) = context.hits.clamped_vertex(place) {
+            return self.start_moving_point(place, curve, PointKind::Clamped(index), context);
         }
-        if let Some(leg) = context.hits.leg(place, LEG_REACH) {
+        let curve = point_of_curve(place, context);
+        if let Some(leg) = leg_before(place, curve, context) {
             return self.start_moving_leg(place, leg, context);
+        }
+        if let Some(hit) = curve {
+            let point = PointKind::OnCurve(hit.u);
+            return self.start_moving_point(place, hit.curve, point, context);
         }
         if let Some([foot, tip]) = context.hits.tooth(place) {
             let scale = context.hits.view.comb.scale;
@@ -359,33 +336,24 @@ impl SelectTool {
         self.move_these(place, (grip, leg.point), taken, label, context)
     }
 
-    fn start_moving_clamped(
+    fn start_moving_point(
         &mut self,
         place: DVec2,
-        vertex: VertexId,
+        curve: CurveId,
+        kind: PointKind,
         context: &Context,
     ) -> Vec<Effect> {
-        let from = clamped_vertex(vertex, context);
-        let (Some(from), Some(curve)) = (from, context.before.curve(vertex.0)) else {
-            return Vec::new();
-        };
-        if curve.check_editable().is_err() {
-            return vec![refused(vertex, context)];
+        match MovingPoint::begin(place, curve, kind, context) {
+            Ok((moving, label)) => {
+                self.state = State::MovingPoint(moving);
+                vec![
+                    Effect::Select(Vec::new()),
+                    Effect::Activate(curve),
+                    Effect::Begin(label),
+                ]
+            }
+            Err(refused) => vec![Effect::Say(refused)],
         }
-        let planar = curve.polygon.is_planar();
-        let carried = Carried {
-            is_off_ground: !planar,
-            ..Carried::default()
-        };
-        let held = context.viewport.flatten(from);
-        self.state = State::MovingClamped(MovingClamped {
-            drag: MoveDrag::begin(place, held, carried, context),
-            from,
-            vertex,
-            planar,
-        });
-        let label = format!("Move vertex {} of closed S-polygon", vertex.1);
-        vec![Effect::Select(Vec::new()), Effect::Begin(label)]
     }
 
     fn move_these(
@@ -421,6 +389,20 @@ impl SelectTool {
     }
 }
 
+/// The point of a curve, of no reference, that a press takes.
+fn point_of_curve(place: DVec2, context: &Context) -> Option<CurveHit> {
+    let hit = context.hits.curve(place)?;
+    context.document.curve(hit.curve).map(|_| hit)
+}
+
+/// The leg that a press takes, if it is nearer than the curve.
+fn leg_before(place: DVec2, curve: Option<CurveHit>, context: &Context) -> Option<LegHit> {
+    let leg = context.hits.leg(place, LEG_REACH)?;
+    let at = context.model(place);
+    let is_nearer = |curve: CurveHit| leg.point.distance(at) < curve.point.distance(at);
+    curve.is_none_or(is_nearer).then_some(leg)
+}
+
 fn takes_vertex(place: DVec2, context: &Context) -> bool {
     context.hits.vertex(place).is_some() || context.hits.clamped_vertex(place).is_some()
 }
@@ -433,18 +415,6 @@ fn takes_reference(place: DVec2, context: &Context) -> bool {
             let reference = context.document.reference(hit.curve);
             reference.is_some_and(|reference| reference.check_editable().is_ok())
         })
-}
-
-/// Say how much a move of a vertex of the closed S-polygon is amplified.
-fn amplified((id, index): VertexId, context: &Context) -> String {
-    let curve = context.document.curve(id);
-    let times = curve.and_then(|curve| curve.polygon.clamped_vertex_amplification(index));
-    times.map_or(String::new(), |times| {
-        format!(
-            "the float S-polygon moves up to {}× as far",
-            significant(times, 3)
-        )
-    })
 }
 
 fn vertex_count(curve: CurveId, context: &Context) -> usize {

@@ -8,7 +8,7 @@ use super::settings::ToolSettings;
 use super::transformation::Transformation;
 use crate::document::{CurveId, Document, Edit};
 use crate::editor::hand::drawing_plane::DrawingPlane;
-use crate::editor::hand::following::Following;
+use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Modifiers;
 use crate::editor::hand::snapping::{self, Carried, Snap, by_fifteen_degrees};
@@ -45,6 +45,8 @@ pub struct Context<'a> {
     pub nudge_step: f64,
     /// How the neighbours of dragged vertices follow.
     pub following: Following,
+    /// The features that the running drag adds, in words.
+    pub added: Option<&'a str>,
     /// The settings of the tools.
     pub settings: &'a ToolSettings,
     /// Where the pointer is, in the view plane.
@@ -127,9 +129,9 @@ pub trait Tool: std::fmt::Debug + Send {
     /// Take back the last point of an unfinished drawing.
     fn undo(&mut self) {}
 
-    /// Whether the wheel sets how neighbours follow, while something is dragged.
-    fn wheel_turns(&self, _following: &Following) -> bool {
-        false
+    /// Which followers the wheel sets while something is dragged.
+    fn wheel_turns(&self, _following: &Following) -> Option<Followers> {
+        None
     }
 
     /// The entry that the tool takes on the canvas.

@@ -1,0 +1,178 @@
+//! A drag of a point of a curve, or of a vertex of its closed S-polygon: the float polygon follows.
+
+use glam::{DVec2, DVec3};
+
+use super::move_drag::MoveDrag;
+use super::tool::{Context, Effect};
+use crate::document::{Curve, CurveId};
+use crate::editor::hand::following::{DraggedPoint, Followers, Following, PointKind};
+use crate::editor::hand::snapping::Carried;
+use crate::editor::view::scene::Mark;
+use crate::geometry::{ClampedPolygon, FloatPolygon, significant};
+
+/// A press near an end, in segments, takes the end where a drag of the point moves vertices more than so many times as
+/// far.
+const NEAR_END: f64 = 0.5;
+const MOST_MAGNIFIED: f64 = 10.0;
+
+/// Vertices within so many screen points of a dragged point follow it, however many there are.
+const NEAR: f64 = 24.0;
+
+/// The state of the drag.
+#[derive(Debug)]
+pub struct MovingPoint {
+    drag: MoveDrag,
+    curve: CurveId,
+    point: DraggedPoint,
+    /// Where the point was.
+    from: DVec3,
+    planar: bool,
+}
+
+impl MovingPoint {
+    /// Begin with the pointer at a place on the canvas; the label of the step comes with it.
+    ///
+    /// # Errors
+    /// Why the point cannot be dragged.
+    pub fn begin(
+        place: DVec2,
+        id: CurveId,
+        kind: PointKind,
+        context: &Context,
+    ) -> Result<(Self, String), String> {
+        let curve = context.before.curve(id).ok_or_else(String::new)?;
+        curve.check_editable().map_err(|error| error.to_string())?;
+        let least_span = crowding(&curve.polygon, kind, context);
+        let point = DraggedPoint { kind, least_span };
+        let point = taken(curve, point, &context.following)?;
+        let from = position(&curve.polygon, point.kind).ok_or_else(String::new)?;
+        let planar = curve.polygon.is_planar();
+        let carried = Carried {
+            is_off_ground: !planar,
+            ..Carried::default()
+        };
+        let held = context.viewport.flatten(from);
+        let label = match point.kind {
+            PointKind::Clamped(index) => format!("Move vertex {index} of closed S-polygon"),
+            PointKind::OnCurve(_) => "Move point of curve".to_owned(),
+        };
+        let moving = Self {
+            drag: MoveDrag::begin(place, held, carried, context),
+            curve: id,
+            point,
+            from,
+            planar,
+        };
+        Ok((moving, label))
+    }
+
+    /// Go on with the pointer at a place on the canvas.
+    pub fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
+        let by = self.drag.go_on(place, context);
+        let by = context.movement(by, self.planar);
+        let following = &context.following;
+        let edit = following.point_edit(context.before, self.curve, self.point, by);
+        Effect::preview(edit.map(|edit| vec![edit]))
+    }
+
+    /// What the wheel sets.
+    pub fn wheel_turns(&self, following: &Following) -> Option<Followers> {
+        let stays = following.closed_stay && matches!(self.point.kind, PointKind::Clamped(_));
+        (!stays).then_some(Followers::OfPoint)
+    }
+
+    /// The hint for the status bar.
+    pub fn hint(&self, context: &Context) -> String {
+        let curve = context.document.curve(self.curve);
+        match (self.point.kind, context.following.closed_stay) {
+            (PointKind::Clamped(index), true) => {
+                let words = curve.and_then(|it| magnified_words(&it.polygon, index));
+                let words = words.unwrap_or_default();
+                format!("Moving vertex {index} of the closed S-polygon: {words}; Esc cancels")
+            }
+            (kind, _) => {
+                let what = match kind {
+                    PointKind::Clamped(index) => format!("vertex {index} of the closed S-polygon"),
+                    PointKind::OnCurve(_) => "the curve".to_owned(),
+                };
+                let words = self.words(context).unwrap_or_default();
+                format!(
+                    "Moving {what}: {words}, the wheel sets how many; hold Alt to compare, Esc cancels"
+                )
+            }
+        }
+    }
+
+    /// The marks on the canvas.
+    pub fn marks(&self, context: &Context) -> Vec<Mark> {
+        let curve = context.document.curve(self.curve);
+        let now = curve.and_then(|curve| position(&curve.polygon, self.point.kind));
+        let readout = now.map(|now| {
+            let remark = self.words(context);
+            self.drag
+                .readout([self.from, now], !self.planar, remark, context)
+        });
+        self.drag.marks(readout, context)
+    }
+
+    /// How many vertices follow.
+    fn words(&self, context: &Context) -> Option<String> {
+        self.wheel_turns(&context.following)?;
+        let curve = context.document.curve(self.curve)?;
+        Some(context.following.point_words(&curve.polygon, self.point))
+    }
+}
+
+/// Say how far the float S-polygon moves with a closed vertex whose others stay.
+fn magnified_words(polygon: &FloatPolygon, index: usize) -> Option<String> {
+    let times = significant(polygon.clamped_vertex_amplification(index)?, 3);
+    Some(format!("the float S-polygon moves up to {times}× as far"))
+}
+
+/// The point that a press takes: the end of a curve beside which no other point can be dragged well.
+fn taken(
+    curve: &Curve,
+    point: DraggedPoint,
+    following: &Following,
+) -> Result<DraggedPoint, String> {
+    let PointKind::OnCurve(u) = point.kind else {
+        return Ok(point);
+    };
+    let polygon = &curve.polygon;
+    let times = following.point_magnification(curve, point);
+    let is_well = times.as_ref().is_ok_and(|times| *times <= MOST_MAGNIFIED);
+    let last = polygon.vertices().len().saturating_sub(1);
+    let end = match (u, polygon.segments() as f64 - u) {
+        (before, after) if before <= after && before <= NEAR_END => Some(0),
+        (_, after) if after <= NEAR_END => Some(last),
+        _ => None,
+    };
+    match end.filter(|_| !is_well && !polygon.is_periodic()) {
+        Some(index) => Ok(DraggedPoint {
+            kind: PointKind::Clamped(index),
+            ..point
+        }),
+        None => times.map(|_| point).map_err(|error| error.to_string()),
+    }
+}
+
+/// How many vertices are near a point of a curve on the canvas, on each side, beyond those that it depends on.
+fn crowding(polygon: &FloatPolygon, kind: PointKind, context: &Context) -> usize {
+    let PointKind::OnCurve(u) = kind else {
+        return 0;
+    };
+    let speed = polygon.jet(u).first.length() / context.viewport.pixel();
+    let near = (NEAR / speed).min(polygon.vertices().len() as f64);
+    (near as usize).saturating_sub(polygon.degree() / 2)
+}
+
+/// Where a point is.
+fn position(polygon: &FloatPolygon, kind: PointKind) -> Option<DVec3> {
+    match kind {
+        PointKind::Clamped(index) => {
+            let clamped = ClampedPolygon::from_float(polygon);
+            clamped.vertices().get(index).copied()
+        }
+        PointKind::OnCurve(u) => Some(polygon.point(u)),
+    }
+}
