@@ -10,6 +10,7 @@ use crate::geometry::expressions::ExpressionMistake;
 use crate::geometry::fairing::bridging::BridgeError;
 use crate::geometry::fairing::harmonising::HarmonyError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
+use crate::geometry::fairing::merging::MergeError;
 use crate::geometry::parameters::OutOfRange;
 use crate::geometry::references::{ReferenceError, ReferenceTextError};
 use crate::geometry::{End, MAX_DEGREE, PolygonError};
@@ -41,6 +42,15 @@ pub enum OperationError {
     /// There is no bridge between two ends.
     #[error(transparent)]
     Bridge(#[from] BridgeError),
+    /// Two curves cannot be merged.
+    #[error(transparent)]
+    Merge(#[from] MergeError),
+    /// A curve with locked vertices was to be merged.
+    #[error("{} has locked vertices, and merging makes new ones: unlock them, or choose Chain", quoted(.name))]
+    LockedInMerge {
+        /// The curve.
+        name: String,
+    },
     /// The curve has no approximation.
     #[error(transparent)]
     Approximation(#[from] ApproximationError),

@@ -1,27 +1,101 @@
-//! Two curves made one by a bridge between them.
+//! Two curves joined: merged into one, bridged, or chained by a match.
 
 use std::f64::consts::TAU;
+use std::time::Duration;
 
 use glam::DVec3;
 
 use super::bridge::{self, BRIDGE, annotations, figures, joint};
+use super::composite::{Composite, Layout, Part, without_circles};
 use super::editable::open_of;
 use super::error::OperationError;
 use super::inputs::Inputs;
-use super::lists::given_count;
+use super::lists::{given, given_count};
 use super::locks;
-use super::matches::{handed_over, without_match};
 use super::operands::Operands;
 use super::operation::Operation;
-use super::outcome::{Deviation, Figure, Outcome};
-use super::parameter::{Choice, Kind, Parameter};
+use super::outcome::{Annotation, Deviation, Figure, Outcome};
+use super::parameter::{Choice, Kind, POSITIVE, Parameter};
+use super::targets::place_of;
 use super::values::Values;
-use crate::document::{
-    Curve, CurveId, Document, Edit, EditError, EndMatch, MatchPlace, ParameterSpan, Renumbering,
-    quoted,
+use crate::document::{Edit, EndMatch, MatchPlace};
+use crate::geometry::fairing::bridging::{Bridge, Bridged, join};
+use crate::geometry::fairing::merging::{Joint, MergeError, Merged, Track, merge};
+use crate::geometry::fairing::requirement::Requirement;
+use crate::geometry::{
+    BezierPolygon, Continuity, End, FloatPolygon, Progress, arc_length_between, significant,
 };
-use crate::geometry::fairing::bridging::{Bridge, join};
-use crate::geometry::{End, FloatPolygon, Progress};
+
+const METHOD: Parameter = Parameter {
+    name: "method",
+    label: "Method",
+    help: "Automatic: merge ends that meet smoothly, chain at a corner, bridge a gap",
+    kind: Kind::Choice {
+        options: &[
+            Choice::new("automatic", "Automatic"),
+            Choice::new("merge", "Merge"),
+            Choice::new("bridge", "Bridge"),
+            Choice::new("chain", "Chain"),
+        ],
+        default: 0,
+    },
+};
+
+/// The meanings of the options of [`METHOD`].
+const METHODS: [Option<Method>; 4] = [
+    None,
+    Some(Method::Merge),
+    Some(Method::Bridge),
+    Some(Method::Chain),
+];
+
+/// A way to join two curves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Method {
+    /// One curve, near both.
+    Merge,
+    /// Both curves stay in one, with vertices between them.
+    Bridge,
+    /// Two curves, the second one matched.
+    Chain,
+}
+
+const TOLERANCE: Parameter = Parameter {
+    name: "tolerance",
+    label: "Merge within",
+    help: "How far a merged curve may be from both curves",
+    kind: Kind::optional_number(POSITIVE, |_| "1e-4 of the size"),
+};
+
+/// The tolerance of a merged curve, by the size of both.
+const WITHIN: f64 = 1e-4;
+
+const CONTINUITY: Parameter = Parameter {
+    name: "continuity",
+    label: "Chain up to",
+    help: "How the second curve of a chain continues the first",
+    kind: Kind::Choice {
+        options: &[
+            Choice::new("G0", "G0 (point)"),
+            Choice::new("G1", "G1 (tangent)"),
+            Choice::new("G2", "G2 (curvature)"),
+            Choice::new("G3", "G3 (curvature slope)"),
+        ],
+        default: 1,
+    },
+};
+
+/// A bridge longer than so many times the gap and the legs beside it goes a long way round.
+const LONG: f64 = 3.0;
+
+/// The relative error of a bridge's length.
+const LENGTH: f64 = 1e-3;
+
+/// The time that a merged curve is looked for.
+const MERGING: Duration = Duration::from_secs(10);
+
+/// What is left of a match, in units of the curve's size.
+const MET: f64 = 1e-9;
 
 const ENDS: Kind = Kind::Choice {
     options: &[
@@ -55,7 +129,7 @@ const SECOND_END: Parameter = Parameter {
 const MOVE_SECOND: Parameter = Parameter {
     name: "move-second",
     label: "Move the second",
-    help: "Let the second curve turn and move as a whole into the place where the bridge is most harmonious",
+    help: "Let the second curve turn and move to where the bridge is most harmonious",
     kind: Kind::Switch { default: false },
 };
 
@@ -70,16 +144,22 @@ const DROP_MATCH: Parameter = Parameter {
 pub static OPERATION: Operation = Operation {
     name: "join",
     label: "Join curves",
-    help: "Make one curve of two open ones by a harmonious bridge between their ends; both stay as they are",
+    help: "Join two open curves: merged into one, by a bridge between both, or as a chain",
     inputs: Inputs::Two,
-    parameters: &[BRIDGE, FIRST_END, SECOND_END, MOVE_SECOND, DROP_MATCH],
+    parameters: &[
+        METHOD,
+        TOLERANCE,
+        BRIDGE,
+        MOVE_SECOND,
+        CONTINUITY,
+        FIRST_END,
+        SECOND_END,
+        DROP_MATCH,
+    ],
     check: |input| two(input).map(drop),
     unused: |_| &[],
     run,
 };
-
-/// A curve with its identity.
-type Part<'a> = (CurveId, &'a Curve);
 
 /// The two curves, if both are open and neither is locked or hidden.
 fn two(input: &Operands) -> Result<[Part<'_>; 2], OperationError> {
@@ -94,107 +174,325 @@ fn two(input: &Operands) -> Result<[Part<'_>; 2], OperationError> {
 }
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
-    let [(id, first), (other, second)] = two(input)?;
+    let parts = two(input)?;
+    let [first, second] = parts.map(|(_, curve)| curve);
     let moves = values.switch(&MOVE_SECOND);
-    if moves {
-        second.check_vertices_unlocked(second.locked_vertices.iter())?;
-    }
     // A copy that may move goes on from the curve.
     let same = first.polygon == second.polygon || first.polygon == second.polygon.reversed();
     if same && !moves {
         return Err(OperationError::JoinedWithItself);
     }
-    let given = [&FIRST_END, &SECOND_END].map(|end| values.choice(end, &MEANINGS));
-    let ends = nearest([&first.polygon, &second.polygon], given);
-    let changed = second.polygon.with_degree(first.polygon.degree())?;
-    let deviation = Deviation::of(&changed);
+    let given_ends = [&FIRST_END, &SECOND_END].map(|end| values.choice(end, &MEANINGS));
+    let ends = nearest([&first.polygon, &second.polygon], given_ends);
     let layout = Layout {
         follows: ends[0] == End::Finish,
         turned: ends[0] == ends[1],
     };
-    let part = if layout.turned {
-        changed.polygon.reversed()
-    } else {
-        changed.polygon.clone()
-    };
-    let wanted = Bridge {
-        vertices: given_count(values, &BRIDGE),
-        second_moves: moves,
-    };
-    // The first curve keeps its direction; joined at its start it comes after the second, and the
-    // bridge leaves it backwards, so that it is the one that stays.
-    let found = if layout.follows {
-        bridge::found(join(&first.polygon, &part, &wanted, progress))?
-    } else {
-        let [first, part] = [&first.polygon, &part].map(FloatPolygon::reversed);
-        bridge::found(join(&first, &part, &wanted, progress))?.reversed()
-    };
-    let composite = Composite {
-        document: input.document(),
-        parts: [(id, first), (other, second)],
+    let sizes = [first, second].map(|it| BezierPolygon::from_float(&it.polygon).size());
+    let tolerance = given(values, &TOLERANCE);
+    let joining = Joining {
+        input,
+        values,
+        parts,
         ends,
         layout,
-        polygon: &found.polygon,
-        second: &part,
+        tolerance: tolerance.unwrap_or(WITHIN * sizes[0].max(sizes[1])),
+        progress,
     };
-    let mut outcome = Outcome::unchanged(deviation);
-    let (edits, dropped) = without_circles(
-        input.document(),
-        composite.edits(),
-        values.switch(&DROP_MATCH),
-    )?;
-    outcome.edits = edits;
-    outcome.renumbered = true;
-    outcome.figures = vec![Figure::ends("joined", "Joined", ends)];
-    outcome.figures.extend(figures(&found));
-    if moves {
-        let farthest = composite.farthest_move();
-        let figure = Figure::length("second_move", "Largest move of the second", farthest);
-        outcome.figures.push(figure);
-    }
-    outcome.remarks = bridge::remarks(&found);
-    outcome.remarks.extend(dropped);
-    outcome.remarks.extend(locks::lost(second, &[&part]));
-    outcome.annotations = annotations(&found);
-    outcome.joint = Some(joint(&found));
+    let asked = values.choice(&METHOD, &METHODS);
+    let implied = moves || given_count(values, &BRIDGE).is_some();
+    let mut outcome = match asked.or(implied.then_some(Method::Bridge)) {
+        Some(Method::Merge) => joining.merged(joining.tolerance),
+        Some(Method::Bridge) => joining.bridged(),
+        Some(Method::Chain) => joining.chained(),
+        None => joining.best(),
+    }?;
+    let joined = Figure::ends("joined", "Joined", ends);
+    outcome.figures.insert(1, joined);
     Ok(outcome)
 }
 
-/// Remove the matches from some edits that would let curves follow each other in a circle; the texts name those
-/// that no curve had before.
-///
-/// # Errors
-/// [`OperationError::MatchCircle`] if there is such a match and `drops` is false.
-fn without_circles(
-    document: &Document,
-    edits: Vec<Edit>,
-    drops: bool,
-) -> Result<(Vec<Edit>, Vec<String>), OperationError> {
-    let mut after = document.clone();
-    let (mut kept, mut dropped) = (Vec::new(), Vec::new());
-    for edit in edits {
-        match (after.apply(edit.clone()), &edit) {
-            (Err(EditError::MatchCycle { name, source_name }), Edit::SetMatch(matched)) => {
-                if !drops {
-                    return Err(OperationError::MatchCircle { name, source_name });
-                }
-                let (curve, end) = (matched.curve, matched.end);
-                if after.match_of(curve, end).is_some() {
-                    let remove = Edit::RemoveMatch { curve, end };
-                    after.apply(remove.clone())?;
-                    kept.push(remove);
-                } else {
-                    let [name, source] = [name, source_name].map(|name| quoted(&name));
-                    dropped.push(format!("{name} does not follow {source}, which follows it"));
-                }
+/// Two curves to join.
+struct Joining<'a> {
+    input: &'a Operands,
+    values: &'a Values,
+    parts: [Part<'a>; 2],
+    ends: [End; 2],
+    layout: Layout,
+    tolerance: f64,
+    progress: &'a Progress,
+}
+
+impl Joining<'_> {
+    /// Merge curves that meet smoothly, chain those that meet at a corner, bridge a gap.
+    ///
+    /// Where a bridge would go a long way round, a merged curve closes the gap, if there is one.
+    fn best(&self) -> Result<Outcome, OperationError> {
+        let second = self.second();
+        let [left, right] = self.in_order(&self.parts[0].1.polygon, &second);
+        let gap = match Joint::between(left, right).check(self.tolerance) {
+            Ok(()) => {
+                return match self.merged(self.tolerance) {
+                    Err(OperationError::Merge(
+                        MergeError::OutOfReach { .. } | MergeError::Kind,
+                    )) => self.chained(),
+                    Err(OperationError::LockedInMerge { .. }) => self.chained(),
+                    found => found,
+                };
             }
-            (result, _) => {
-                result?;
-                kept.push(edit);
+            Err(MergeError::Apart { distance, .. }) => distance,
+            Err(_) => return self.chained(),
+        };
+        let (mut bridged, detour) = self.bridge()?;
+        let Some(detour) = detour else {
+            return Ok(bridged);
+        };
+        // A hair more, so that rounding does not leave the ends apart.
+        match self.merged(gap * (1.0 + MET)) {
+            Ok(mut merged) => {
+                merged.remarks.push(format!(
+                    "{detour}: merged within the gap instead; Bridge keeps both curves"
+                ));
+                Ok(merged)
+            }
+            Err(OperationError::Cancelled) => Err(OperationError::Cancelled),
+            Err(_) => {
+                bridged.remarks.push(advice(&detour));
+                Ok(bridged)
             }
         }
     }
-    Ok((kept, dropped))
+
+    /// The second curve in the direction of the composite.
+    fn second(&self) -> FloatPolygon {
+        let polygon = &self.parts[1].1.polygon;
+        match self.layout.turned {
+            true => polygon.reversed(),
+            false => polygon.clone(),
+        }
+    }
+
+    /// Two polygons in their order along the composite.
+    fn in_order<'a>(
+        &self,
+        first: &'a FloatPolygon,
+        second: &'a FloatPolygon,
+    ) -> [&'a FloatPolygon; 2] {
+        match self.layout.follows {
+            true => [first, second],
+            false => [second, first],
+        }
+    }
+
+    fn merged(&self, tolerance: f64) -> Result<Outcome, OperationError> {
+        let [(_, first), (_, second)] = self.parts;
+        for curve in [first, second] {
+            if curve.locked_vertices.iter().next().is_some() {
+                let name = curve.name.clone();
+                return Err(OperationError::LockedInMerge { name });
+            }
+        }
+        let part = self.second();
+        let [left, right] = self.in_order(&first.polygon, &part);
+        let progress = self.progress.limited(MERGING);
+        let found = merge(left, right, tolerance, &progress);
+        let Merged {
+            polygon,
+            tracks,
+            deviation,
+            bounded,
+            extrema,
+        } = found.map_err(|error| match error {
+            MergeError::Cancelled if progress.is_late() => {
+                MergeError::OutOfReach { tolerance }.into()
+            }
+            MergeError::Cancelled => OperationError::Cancelled,
+            error => error.into(),
+        })?;
+        let deviation_is = match bounded {
+            true => Deviation::AtMost(deviation),
+            false => Deviation::Measured(deviation),
+        };
+        let mut outcome = Outcome::unchanged(deviation_is);
+        let composite = self.composite(&polygon, &part, Some(&tracks));
+        self.compose(&composite, &mut outcome)?;
+        let id = self.parts[0].0;
+        let limit = Requirement::Limit {
+            found: deviation,
+            most: tolerance,
+        };
+        outcome.requirements = vec![(id, vec![limit])];
+        outcome.figures = vec![
+            method("merge"),
+            Figure::length("tolerance", "Tolerance", tolerance),
+            Figure::count("vertices", "Vertices", polygon.vertices().len()),
+            Figure::count("extrema_before", "Curvature extrema of both", extrema[0]),
+            Figure::count("extrema", "Curvature extrema", extrema[1]),
+        ];
+        let at = tracks[0].at(left.segments() as f64);
+        outcome
+            .annotations
+            .push(Annotation::Point(polygon.point(at)));
+        outcome.joint = Some([at; 2]);
+        Ok(outcome)
+    }
+
+    fn bridged(&self) -> Result<Outcome, OperationError> {
+        let (mut outcome, detour) = self.bridge()?;
+        outcome.remarks.extend(detour.as_deref().map(advice));
+        Ok(outcome)
+    }
+
+    /// Join by a bridge; says if it goes a long way round.
+    fn bridge(&self) -> Result<(Outcome, Option<String>), OperationError> {
+        let [(_, first), (_, second)] = self.parts;
+        let moves = self.values.switch(&MOVE_SECOND);
+        if moves {
+            second.check_vertices_unlocked(second.locked_vertices.iter())?;
+        }
+        let changed = second.polygon.with_degree(first.polygon.degree())?;
+        let deviation = Deviation::of(&changed);
+        let part = match self.layout.turned {
+            true => changed.polygon.reversed(),
+            false => changed.polygon.clone(),
+        };
+        let wanted = Bridge {
+            vertices: given_count(self.values, &BRIDGE),
+            second_moves: moves,
+        };
+        // The first curve keeps its direction; joined at its start it comes after the second, and the
+        // bridge leaves it backwards, so that it is the one that stays.
+        let found = if self.layout.follows {
+            bridge::found(join(&first.polygon, &part, &wanted, self.progress))?
+        } else {
+            let [first, part] = [&first.polygon, &part].map(FloatPolygon::reversed);
+            bridge::found(join(&first, &part, &wanted, self.progress))?.reversed()
+        };
+        let mut outcome = Outcome::unchanged(deviation);
+        let composite = self.composite(&found.polygon, &part, None);
+        let moved = moves.then(|| composite.farthest_move());
+        self.compose(&composite, &mut outcome)?;
+        outcome.figures = vec![method("bridge")];
+        outcome.figures.extend(figures(&found));
+        outcome.figures.extend(
+            moved.map(|moved| Figure::length("second_move", "Largest move of the second", moved)),
+        );
+        let [left, right] = self.in_order(&first.polygon, &part);
+        let length = bridge_length(&found, left, right);
+        outcome.figures.push(Figure::length(
+            "bridge_length",
+            "Length of the bridge",
+            length,
+        ));
+        outcome.remarks.extend(bridge::remarks(&found));
+        outcome.remarks.extend(locks::lost(second, &[&part]));
+        outcome.annotations = annotations(&found);
+        outcome.joint = Some(joint(&found));
+        let gap = left
+            .end_jet(End::Finish)
+            .point
+            .distance(right.end_jet(End::Start).point);
+        let is_long = !moves && length > LONG * gap + legs_beside(left, right);
+        let detour = is_long.then(|| {
+            let [length, gap] = [length, gap].map(|it| significant(it, 3));
+            format!("A bridge is {length} long, the gap {gap}")
+        });
+        Ok((outcome, detour))
+    }
+
+    /// Let the second curve follow the end of the first.
+    fn chained(&self) -> Result<Outcome, OperationError> {
+        let [(id, first), (other, second)] = self.parts;
+        let [source_end, end] = self.ends;
+        let continuity = self.values.choice(&CONTINUITY, &Continuity::ALL);
+        let edit = Edit::SetMatch(EndMatch {
+            curve: other,
+            end,
+            source: id,
+            place: MatchPlace::End(source_end),
+            continuity,
+            reversed: self.layout.turned,
+        });
+        let drops = self.values.switch(&DROP_MATCH);
+        let document = self.input.document();
+        let (edits, dropped) = without_circles(document, vec![edit], drops)?;
+        let after = document.edited(edits.iter().cloned())?;
+        let polygon = after.curve(other).map(|curve| &curve.polygon);
+        let polygon = polygon.unwrap_or(&second.polygon);
+        let moved = second.polygon.deviation(polygon)?;
+        let planar = second.polygon.is_planar();
+        let mut target = continuity.target(&first.polygon.end_jet(source_end), planar);
+        if self.layout.turned {
+            target = target.turned(planar);
+        }
+        let tolerance = MET * polygon.size();
+        let mut outcome = Outcome::unchanged(Deviation::AtMost(moved));
+        outcome.requirements = vec![(other, vec![place_of(polygon, end, target, tolerance)])];
+        outcome.edits = edits;
+        outcome.figures = vec![
+            method("chain"),
+            Figure::length("second_move", "Largest move of the second", moved),
+        ];
+        outcome.remarks = dropped;
+        outcome.remarks.push(format!(
+            "Both stay curves; the second follows the first up to {}",
+            continuity.name()
+        ));
+        Ok(outcome)
+    }
+
+    fn composite<'a>(
+        &'a self,
+        polygon: &'a FloatPolygon,
+        second: &'a FloatPolygon,
+        tracks: Option<&'a [Track; 2]>,
+    ) -> Composite<'a> {
+        Composite {
+            document: self.input.document(),
+            parts: self.parts,
+            ends: self.ends,
+            layout: self.layout,
+            polygon,
+            second,
+            tracks,
+        }
+    }
+
+    /// Make the first curve the composite.
+    fn compose(&self, composite: &Composite, outcome: &mut Outcome) -> Result<(), OperationError> {
+        let drops = self.values.switch(&DROP_MATCH);
+        let (edits, dropped) = without_circles(self.input.document(), composite.edits(), drops)?;
+        outcome.edits = edits;
+        outcome.renumbered = true;
+        outcome.remarks.extend(dropped);
+        Ok(())
+    }
+}
+
+fn method(name: &'static str) -> Figure {
+    Figure::word("method", "Method", name)
+}
+
+fn advice(detour: &str) -> String {
+    format!("{detour}: Merge or Chain, or move the ends apart")
+}
+
+/// The length of the curve between two parts.
+fn bridge_length(found: &Bridged, left: &FloatPolygon, right: &FloatPolygon) -> f64 {
+    let count = found.polygon.vertices().len();
+    let from = left.segments() as f64;
+    let to = (count - right.vertices().len()) as f64;
+    arc_length_between(&found.polygon, from, to, LENGTH)
+}
+
+/// The lengths of the legs beside the joint, together.
+fn legs_beside(left: &FloatPolygon, right: &FloatPolygon) -> f64 {
+    let leg = |vertices: &[DVec3]| match vertices {
+        [a, b] => a.distance(*b),
+        _ => 0.0,
+    };
+    let [before, after] = [left, right].map(|it| it.vertices());
+    leg(&before[before.len().saturating_sub(2)..]) + leg(&after[..after.len().min(2)])
 }
 
 /// The ends that are joined: those that are given, and of the others those that lie closest. Of pairs as
@@ -244,137 +542,5 @@ impl Gap {
             // An end without a direction points nowhere.
             turning: if turning.is_finite() { turning } else { TAU },
         }
-    }
-}
-
-/// How the second curve lies in the composite.
-#[derive(Clone, Copy)]
-struct Layout {
-    /// Whether it comes after the first.
-    follows: bool,
-    /// Whether it runs the other way.
-    turned: bool,
-}
-
-/// The composite, with what it was made of.
-struct Composite<'a> {
-    document: &'a Document,
-    parts: [Part<'a>; 2],
-    ends: [End; 2],
-    layout: Layout,
-    polygon: &'a FloatPolygon,
-    /// The second part in its direction and degree, where it was.
-    second: &'a FloatPolygon,
-}
-
-impl Composite<'_> {
-    /// The numbers of the first vertices of both parts, which are the parameters of their starts.
-    fn offsets(&self) -> [usize; 2] {
-        let count = self.polygon.vertices().len();
-        if self.layout.follows {
-            [0, count - self.second.vertices().len()]
-        } else {
-            [count - self.parts[0].1.polygon.vertices().len(), 0]
-        }
-    }
-
-    fn farthest_move(&self) -> f64 {
-        let [_, offset] = self.offsets();
-        let after = self.polygon.vertices().iter().skip(offset);
-        let pairs = self.second.vertices().iter().zip(after);
-        pairs.fold(0.0, |most, (a, b)| most.max(a.distance(*b)))
-    }
-
-    /// The first curve becomes the composite. Locks, targets and matches stay with their vertices,
-    /// ends and places.
-    fn edits(&self) -> Vec<Edit> {
-        let [(id, first), (other, second)] = self.parts;
-        let [first_offset, second_offset] = self.offsets();
-        let joined = self.ends[0];
-        let own = |end| self.document.match_of(other, end);
-        let mut edits: Vec<Edit> = Vec::new();
-        edits.extend(without_match(self.document, id, joined));
-        for end in End::BOTH {
-            edits.extend(without_match(self.document, other, end));
-        }
-        let locked = &first.locked_vertices;
-        let locked = locked.renumbered(|vertex| Some(first_offset + vertex));
-        let span =
-            ParameterSpan::shifted([0.0, first.polygon.segments() as f64], first_offset as f64);
-        let inside = match joined {
-            End::Start => span.new[0],
-            End::Finish => span.new[1],
-        };
-        edits.push(Edit::Renumber {
-            curve: id,
-            polygon: self.polygon.clone(),
-            renumbering: Renumbering::of_parameters(first, self.polygon, vec![span])
-                .with_locked_vertices(locked)
-                .with_end(joined, MatchPlace::Parameter(inside)),
-        });
-        let kept = second.locked_vertices.carried(&second.polygon, self.second);
-        let kept: Vec<usize> = kept.iter().map(|vertex| second_offset + vertex).collect();
-        if !kept.is_empty() {
-            edits.push(Edit::SetVerticesLocked {
-                curve: id,
-                vertices: kept,
-                locked: true,
-            });
-        }
-        // The free end of the second curve takes the place of the first one's joined end.
-        let free = self.ends[1].other();
-        let planar = second.polygon.is_planar();
-        let target = second.targets.get(free);
-        let target = target.map(|target| {
-            if self.layout.turned {
-                target.turned(planar)
-            } else {
-                target
-            }
-        });
-        if target != first.targets.get(joined) {
-            edits.push(Edit::SetTarget {
-                curve: id,
-                end: joined,
-                target,
-            });
-        }
-        let own = own(free).filter(|matched| matched.source != id);
-        edits.extend(own.map(|matched| {
-            Edit::SetMatch(EndMatch {
-                curve: id,
-                end: joined,
-                reversed: matched.reversed != self.layout.turned,
-                ..*matched
-            })
-        }));
-        edits.extend(self.followers());
-        edits.push(Edit::Remove(other));
-        edits
-    }
-
-    /// The matches at places of the second curve, which are places of the composite then.
-    fn followers(&self) -> Vec<Edit> {
-        let [(id, _), (other, second)] = self.parts;
-        let [_, offset] = self.offsets();
-        let joined = self.ends[0];
-        let length = second.polygon.segments() as f64;
-        let within = |u: f64| {
-            let u = if self.layout.turned { length - u } else { u };
-            MatchPlace::Parameter(offset as f64 + u)
-        };
-        let place = |place: MatchPlace| {
-            Some(match place {
-                MatchPlace::End(end) if end != self.ends[1] => MatchPlace::End(joined),
-                MatchPlace::End(End::Start) => within(0.0),
-                MatchPlace::End(End::Finish) => within(length),
-                MatchPlace::Parameter(u) => within(u),
-            })
-        };
-        // What the first curve followed of the second is part of the same curve now.
-        let is_own = |edit: &Edit| matches!(edit, Edit::SetMatch(matched) if matched.curve == id);
-        let mut followers = handed_over(self.document, [other, id], self.layout.turned, place);
-        followers.retain(|edit| !is_own(edit));
-        followers
     }
 }

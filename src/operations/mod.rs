@@ -12,6 +12,7 @@ mod alternatives;
 mod amount;
 mod atlas;
 mod bridge;
+mod composite;
 mod cutting;
 mod degree;
 mod editable;

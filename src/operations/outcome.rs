@@ -141,6 +141,11 @@ impl Figure {
         Self::new(name, label, Value::Ends(ends), Quantity::Number)
     }
 
+    /// Report a word.
+    pub(super) fn word(name: &'static str, label: &'static str, word: &'static str) -> Self {
+        Self::new(name, label, Value::Word(word), Quantity::Number)
+    }
+
     /// Report an angle, in radians.
     pub(super) fn angle(name: &'static str, label: &'static str, radians: f64) -> Self {
         Self::new(name, label, Value::Real(radians), Quantity::Angle)

@@ -45,6 +45,7 @@ impl Serialize for Report {
                     };
                     json!(rows.iter().map(row).collect::<Vec<_>>())
                 }
+                Value::Word(word) => json!(word),
                 Value::Ends([first, second]) => {
                     json!({ "first": first.name(), "second": second.name() })
                 }

@@ -39,6 +39,7 @@ fn figure_line(figure: &Figure) -> String {
             };
             rows.iter().map(line).collect()
         }
+        Value::Word(word) => (*word).to_owned(),
         Value::Ends([first, second]) => {
             format!(
                 "{} of the first and {} of the second",

@@ -26,6 +26,8 @@ pub enum Value {
         /// The rows.
         rows: Vec<Vec<f64>>,
     },
+    /// A word; only figures have it.
+    Word(&'static str),
     /// An end of a first curve and one of a second; only figures have them.
     Ends([End; 2]),
     /// A reference, or none.
@@ -54,6 +56,7 @@ impl Value {
             }
             Self::Indices(indices) => joined(indices.iter().map(usize::to_string).collect()),
             Self::Table { rows, .. } => joined(rows.iter().map(|row| format!("{row:?}")).collect()),
+            Self::Word(word) => (*word).to_owned(),
             Self::Ends(ends) => joined(ends.iter().map(|end| end.name().to_owned()).collect()),
         }
     }

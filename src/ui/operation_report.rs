@@ -189,6 +189,7 @@ fn figure_text(figure: &Figure) -> String {
         Value::List(numbers) => joined(numbers, |number| figures::significant(*number, 4)),
         Value::Indices(indices) => joined(indices, usize::to_string),
         Value::Table { rows, .. } => rows.len().to_string(),
+        Value::Word(word) => (*word).to_owned(),
         Value::Ends([first, second]) => format!("{} and {}", first.name(), second.name()),
         Value::Reference(reference) => {
             let text = reference.as_ref().map(|reference| reference.to_string());

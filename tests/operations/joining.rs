@@ -2,11 +2,13 @@
 
 use batten::document::{Curve, Document, Edit, EndMatch, LockedVertices, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::{Continuity, End, FloatPolygon, Progress};
 use batten::operations::{Operands, Outcome, Report, Value};
 use glam::DVec3;
 use serde_json::{Value as Json, json};
 
+use crate::common::Random;
 use crate::runner::{Runner, operation};
 
 /// An arc of a circle of radius 10 from one angle to another, both in degrees.
@@ -341,4 +343,196 @@ fn a_match_by_which_the_composite_would_follow_itself_is_dropped_on_demand() {
         "{:?}",
         outcome.remarks
     );
+}
+
+/// A curve cut in two, the second part changed at the joint so that the ends meet with some continuity.
+fn cut_arc(random: &mut Random, degree: usize, level: Continuity) -> [Curve; 2] {
+    let count = 2 * degree + 8 + (random.bits() % 12) as usize;
+    let (mut angle, mut turn) = (random.between(-1.0, 1.0), random.between(0.02, 0.15));
+    let growth = random.between(-0.006, 0.01);
+    let mut place = DVec3::ZERO;
+    let vertices: Vec<DVec3> = (0..count)
+        .map(|_| {
+            place += DVec3::new(angle.cos(), angle.sin(), 0.0);
+            angle += turn;
+            turn += growth;
+            place
+        })
+        .collect();
+    let whole = FloatPolygon::new(degree, vertices, None, false).expect("a polygon");
+    let at = (whole.segments() / 2) as f64;
+    let (first, second) = whole.split(at, 0).expect("two parts");
+    let (first, mut second) = (first.polygon, second.polygon);
+    // Scale about the joint: the direction stays, the curvature jumps.
+    if level == Continuity::G1 {
+        let joint = second.end_jet(End::Start).point;
+        let factor = random.between(0.7, 1.4);
+        let moves = second.vertices().iter().enumerate();
+        let moves = moves.map(|(index, vertex)| (index, joint + factor * (*vertex - joint)));
+        let moves: Vec<(usize, DVec3)> = moves.collect();
+        second.move_vertices(moves).expect("in range");
+    }
+    [Curve::new("first", first), Curve::new("second", second)]
+}
+
+fn text<'a>(report: &'a Report, name: &str) -> &'a str {
+    match report.figure(name) {
+        Some(Value::Word(word)) => word,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+/// How far points of two curves are from another one, at most.
+fn farthest(parts: [&FloatPolygon; 2], merged: &FloatPolygon) -> f64 {
+    let dense: Vec<DVec3> = (0..=200 * merged.segments())
+        .map(|step| merged.point(step as f64 / 200.0))
+        .collect();
+    let mut most = 0.0_f64;
+    for part in parts {
+        for step in 0..=40 * part.segments() {
+            let at = part.point(step as f64 / 40.0);
+            let legs = dense.windows(2);
+            let off = legs.map(|leg| {
+                let way = leg[1] - leg[0];
+                let along = (at - leg[0]).dot(way) / way.length_squared();
+                at.distance(leg[0] + along.clamp(0.0, 1.0) * way)
+            });
+            most = most.max(off.fold(f64::INFINITY, f64::min));
+        }
+    }
+    most
+}
+
+/// Merge pairs of curves that meet smoothly.
+fn check_merged(count: usize) {
+    let mut random = Random(5);
+    let mut added = [0; 3];
+    for trial in 0..count {
+        let degree = 3 + trial % 4;
+        let level = [Continuity::G1, Continuity::G3][trial / 4 % 2];
+        let curves = cut_arc(&mut random, degree, level);
+        let document = Document::from_curves(curves.clone());
+        let (outcome, after, report) = join(&document, &[]);
+        let told = format!(
+            "trial {trial}: degree {degree}, {level:?}: {}",
+            report.text()
+        );
+        assert_eq!(text(&report, "method"), "merge", "{told}");
+        assert!(outcome.reached, "{told}");
+        let merged = only(&after);
+        assert_eq!(merged.name, "first");
+        let parts = [&curves[0].polygon, &curves[1].polygon];
+        let size = parts.map(|it| it.size()).into_iter().fold(0.0, f64::max);
+        let off = farthest(parts, &merged.polygon);
+        assert!(off <= 1e-4 * size, "{told}: {off:e}");
+        let extrema =
+            |polygon: &FloatPolygon| Features::new(polygon).count(Feature::CurvatureExtremum);
+        let own = extrema(parts[0]) + extrema(parts[1]);
+        let now = extrema(&merged.polygon);
+        assert!((own..=own + 2).contains(&now), "{told}: {own} to {now}");
+        added[now - own] += 1;
+        for (part, end) in [(parts[0], End::Start), (parts[1], End::Finish)] {
+            let [a, b] = [part, &merged.polygon].map(|it| it.end_jet(end));
+            assert!(a.point.distance(b.point) <= 1e-9 * size, "{told}");
+            let turned = a.first.normalize().cross(b.first.normalize()).length();
+            assert!(turned <= 1e-9, "{told}");
+        }
+    }
+    println!("extrema added 0, 1, 2: {added:?}");
+}
+
+#[test]
+fn curves_that_meet_smoothly_are_merged_within_the_tolerance() {
+    check_merged(12);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn three_hundred_pairs_are_merged() {
+    check_merged(300);
+}
+
+#[test]
+fn a_corner_is_chained_and_not_merged() {
+    let document = Document::from_curves([
+        line("first", [0.0, 0.0], [10.0, 0.0]),
+        line("second", [10.0, 0.0], [14.0, 8.0]),
+    ]);
+    let (outcome, after, report) = join(&document, &[]);
+    assert_eq!(text(&report, "method"), "chain");
+    assert!(outcome.reached, "{}", report.text());
+    assert_eq!(after.curves().len(), 2);
+    let input = Operands::new(&document, document.ids().take(2)).expect("two curves");
+    let operation = operation("join");
+    let values = operation.values(&input, [("method", Value::Choice(1))]);
+    let refused = operation.run(&input, &values.expect("values"), &Progress::default());
+    let refused = refused.expect_err("a corner").to_string();
+    assert!(
+        refused.contains("corner of 63.4°") && refused.contains("Chain"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn a_bridge_that_goes_a_long_way_round_is_told_or_merged_instead() {
+    let mut random = Random(8);
+    for trial in 0..6 {
+        let [first, mut second] = cut_arc(&mut random, 5, Continuity::G3);
+        let jet = first.polygon.end_jet(End::Finish);
+        let gap = 0.02 * first.polygon.size() * jet.tangent().expect("one");
+        let moves = second.polygon.vertices().iter().enumerate();
+        let moves = moves.map(|(index, vertex)| (index, *vertex + gap));
+        let moves: Vec<(usize, DVec3)> = moves.collect();
+        second.polygon.move_vertices(moves).expect("in range");
+        let document = Document::from_curves([first, second]);
+        let (outcome, _, report) = join(&document, &[]);
+        let told = format!("trial {trial}: {}", report.text());
+        assert_eq!(text(&report, "method"), "merge", "{told}");
+        assert!(
+            outcome.reached && told.contains("merged within the gap"),
+            "{told}"
+        );
+        let (_, _, bridged) = join(&document, &[("method", Value::Choice(2))]);
+        assert!(
+            bridged.text().contains("A bridge is "),
+            "{}",
+            bridged.text()
+        );
+    }
+}
+
+#[test]
+fn merging_keeps_what_follows_the_curves_and_refuses_locked_vertices() {
+    let mut random = Random(2);
+    let [first, second] = cut_arc(&mut random, 4, Continuity::G3);
+    let at = second.polygon.point(2.0);
+    let follower = line("follower", [at.x, at.y], [at.x, at.y + 3.0]);
+    let mut document = Document::from_curves([first, second, follower]);
+    let ids: Vec<_> = document.ids().collect();
+    let matched = EndMatch {
+        curve: ids[2],
+        end: End::Start,
+        source: ids[1],
+        place: MatchPlace::Parameter(2.0),
+        continuity: Continuity::G0,
+        reversed: false,
+    };
+    document.apply(Edit::SetMatch(matched)).expect("an edit");
+    let (_, after, _) = join(&document, &[]);
+    let kept = after.match_of(ids[2], End::Start).expect("a match");
+    assert_eq!(kept.source, ids[0]);
+    let start = after
+        .curve(ids[2])
+        .expect("a curve")
+        .polygon
+        .end_jet(End::Start);
+    assert!(start.point.distance(at) <= 1e-3, "{}", start.point);
+    let lock = Edit::SetVerticesLocked {
+        curve: ids[0],
+        vertices: vec![3],
+        locked: true,
+    };
+    document.apply(lock).expect("an edit");
+    let (_, _, report) = join(&document, &[]);
+    assert_eq!(text(&report, "method"), "chain");
 }

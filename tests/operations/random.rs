@@ -116,6 +116,8 @@ fn assert_harmless(seed: u64) {
                         | OperationError::OutOfRange { .. }
                         | OperationError::NotBySteps { .. }
                         | OperationError::Bridge(_)
+                        | OperationError::Merge(_)
+                        | OperationError::LockedInMerge { .. }
                         | OperationError::Approximation(_)
                         | OperationError::Fit(_)
                         | OperationError::Exclude { .. }

@@ -20,6 +20,7 @@ pub mod least_change;
 mod least_squares;
 pub mod near_end;
 pub(super) mod near_points;
+pub mod merging;
 mod objective;
 pub(super) mod point_fit;
 mod problem;

@@ -1,0 +1,291 @@
+//! Two curves that meet, made one float polygon within a tolerance.
+//!
+//! The engine that fits points with a wished number of curvature extrema fits both curves at once: the result has
+//! those of both, and at most two more at the joint.
+
+use glam::DVec2;
+use thiserror::Error;
+
+use crate::geometry::distance::{DistanceError, MeasuredDeviation};
+use crate::geometry::end::End;
+use crate::geometry::error::PolygonError;
+use crate::geometry::features::{Feature, Features};
+use crate::geometry::fitting::{Extrema, FitError, PlaneFit, fit_plane};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::progress::Progress;
+use crate::geometry::wording::significant;
+
+/// The largest angle between the tangents of curves that meet without a corner, in radians: 0.1°.
+pub const SMOOTH: f64 = 0.1 * std::f64::consts::PI / 180.0;
+
+/// The samples of a segment that the merged curve is near to.
+const SAMPLES: usize = 6;
+
+/// The samples of a segment by which places of the curves are followed along the merged one.
+const TRACKED: usize = 16;
+
+/// The most Newton steps to a nearest point.
+const STEPS: usize = 12;
+
+/// The most extrema that a joint may add: where curvature jumps, it must rise and fall there.
+const ADDED: usize = 2;
+
+/// The share of the tolerance that samples must keep, so that the curve between them does too.
+const KEPT: f64 = 0.9;
+
+/// The share of the time that is left for each number of extrema.
+const SHARE: f64 = 0.5;
+
+/// Two curves that became one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Merged {
+    /// The float polygon.
+    pub polygon: FloatPolygon,
+    /// Where points of the two curves are on it.
+    pub tracks: [Track; 2],
+    /// The largest deviation from the two curves, both ways.
+    pub deviation: f64,
+    /// Whether that is a bound.
+    pub bounded: bool,
+    /// The curvature extrema of both curves together, and of the merged one.
+    pub extrema: [usize; 2],
+}
+
+/// Where the points of a curve are on another one that runs along it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track {
+    /// The parameters of the other curve at even parameters of this one.
+    places: Vec<f64>,
+}
+
+/// Why two curves are not merged.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum MergeError {
+    /// The ends do not meet.
+    #[error(
+        "the ends are {} apart, and the tolerance is {}: bridge the gap, or allow more",
+        significant(*.distance, 3),
+        significant(*.tolerance, 3)
+    )]
+    Apart {
+        /// Their distance.
+        distance: f64,
+        /// The tolerance.
+        tolerance: f64,
+    },
+    /// The ends meet at a corner.
+    #[error(
+        "the curves meet at a corner of {}°: choose Chain, which keeps both curves",
+        significant(.angle.to_degrees(), 3)
+    )]
+    Corner {
+        /// The angle between the tangents, in radians.
+        angle: f64,
+    },
+    /// A curve lies in space or has weights.
+    #[error("only planar curves without weights are merged: choose Chain or Bridge")]
+    Kind,
+    /// No curve was found within the tolerance.
+    #[error(
+        "no curve with up to {ADDED} curvature extrema more keeps the tolerance: allow more than {}, or choose Chain",
+        significant(*.tolerance, 3)
+    )]
+    OutOfReach {
+        /// The tolerance.
+        tolerance: f64,
+    },
+    /// The computation was ended early.
+    #[error("merging was cancelled")]
+    Cancelled,
+    /// The curves cannot be fitted.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// A curve is periodic.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+}
+
+/// How the end of an open curve meets the start of another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joint {
+    /// The distance of the ends.
+    pub distance: f64,
+    /// The angle between the tangents, in radians; not a number where there is none.
+    pub angle: f64,
+}
+
+impl Joint {
+    /// Measure how the end of a curve meets the start of another.
+    pub fn between(first: &FloatPolygon, second: &FloatPolygon) -> Self {
+        let [end, start] = [first.end_jet(End::Finish), second.end_jet(End::Start)];
+        let tangents = end.tangent().zip(start.tangent());
+        Self {
+            distance: end.point.distance(start.point),
+            angle: tangents.map_or(f64::NAN, |(a, b)| a.angle_between(b)),
+        }
+    }
+
+    /// Check that the ends meet within a tolerance and without a corner.
+    ///
+    /// # Errors
+    /// [`MergeError::Apart`], [`MergeError::Corner`].
+    pub fn check(self, tolerance: f64) -> Result<(), MergeError> {
+        let Self { distance, angle } = self;
+        if distance > tolerance {
+            return Err(MergeError::Apart {
+                distance,
+                tolerance,
+            });
+        }
+        match angle <= SMOOTH {
+            true => Ok(()),
+            false => Err(MergeError::Corner { angle }),
+        }
+    }
+}
+
+/// Make one curve of an open planar one and another that goes on from its end, within a tolerance: both outer ends
+/// keep point and direction, and the curve has as many curvature extrema as both, and at most two more, proved.
+///
+/// # Errors
+/// [`MergeError`].
+pub fn merge(
+    first: &FloatPolygon,
+    second: &FloatPolygon,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Merged, MergeError> {
+    let parts = [first, second];
+    for part in parts {
+        part.check_open("merged")?;
+    }
+    if parts.iter().any(|it| !it.is_planar() || it.is_rational()) {
+        return Err(MergeError::Kind);
+    }
+    Joint::between(first, second).check(tolerance)?;
+    let own = extrema_of(parts, progress)?;
+    let points = points_of(parts);
+    let jets = [first.end_jet(End::Start), second.end_jet(End::Finish)];
+    let vertices: usize = parts.iter().map(|it| it.vertices().len()).sum();
+    let mut asked = PlaneFit {
+        degree: first.degree().max(second.degree()),
+        most: Some(2 * vertices),
+        tolerance: Some(KEPT * tolerance),
+        exact_ends: [true; 2],
+        directions: jets.map(|jet| jet.tangent().map(|tangent| tangent.truncate())),
+        outliers: Some(Vec::new()),
+        ..PlaneFit::default()
+    };
+    for extrema in own..=own + ADDED {
+        asked.extrema = Extrema::Exactly(extrema);
+        let found = fit_plane(&points, &asked, &progress.hurried(SHARE));
+        if progress.is_cancelled() {
+            return Err(MergeError::Cancelled);
+        }
+        let found = match found {
+            Ok(found) => found,
+            Err(FitError::Cancelled) => return Err(MergeError::Cancelled),
+            Err(_) => continue,
+        };
+        if !found.holds {
+            continue;
+        }
+        let merged = measured(parts, found.polygon, [own, extrema], progress);
+        let merged = merged.map_err(|_| MergeError::Cancelled)?;
+        if merged.deviation <= tolerance {
+            return Ok(merged);
+        }
+    }
+    Err(MergeError::OutOfReach { tolerance })
+}
+
+fn extrema_of(parts: [&FloatPolygon; 2], progress: &Progress) -> Result<usize, MergeError> {
+    let mut sum = 0;
+    for part in parts {
+        let features = Features::proved(part, |_| !progress.is_cancelled());
+        let features = features.ok_or(MergeError::Cancelled)?;
+        sum += features.count(Feature::CurvatureExtremum);
+    }
+    Ok(sum)
+}
+
+/// Points along both curves; the ends that meet count once, in the middle between them.
+fn points_of([first, second]: [&FloatPolygon; 2]) -> Vec<DVec2> {
+    let along = |polygon: &FloatPolygon| -> Vec<DVec2> {
+        let places = (0..=SAMPLES * polygon.segments()).map(|it| it as f64 / SAMPLES as f64);
+        places.map(|u| polygon.point(u).truncate()).collect()
+    };
+    let [mut points, others] = [first, second].map(along);
+    if let (Some(end), Some(start)) = (points.last_mut(), others.first()) {
+        *end = end.midpoint(*start);
+    }
+    points.extend(others.iter().skip(1));
+    points
+}
+
+/// Measure how far a merged curve is from both, along which it runs.
+fn measured(
+    parts: [&FloatPolygon; 2],
+    polygon: FloatPolygon,
+    extrema: [usize; 2],
+    progress: &Progress,
+) -> Result<Merged, DistanceError> {
+    let first = Track::along(&polygon, parts[0], 0.0);
+    let second = Track::along(&polygon, parts[1], first.at(parts[0].segments() as f64));
+    let tracks = [first, second];
+    let (mut deviation, mut bounded) = (0.0_f64, true);
+    for (part, track) in parts.into_iter().zip(&tracks) {
+        let place = |u: f64| track.at(u);
+        let found = MeasuredDeviation::both_ways(part, &polygon, &place, progress)?;
+        deviation = deviation.max(found.largest);
+        bounded &= found.bounded;
+    }
+    Ok(Merged {
+        polygon,
+        tracks,
+        deviation,
+        bounded,
+        extrema,
+    })
+}
+
+impl Track {
+    /// Follow a curve along another one, from a parameter of that on.
+    fn along(polygon: &FloatPolygon, curve: &FloatPolygon, from: f64) -> Self {
+        let last = polygon.segments() as f64;
+        let mut place = from;
+        let samples = 0..=TRACKED * curve.segments();
+        let places = samples.map(|sample| {
+            let at = curve.point(sample as f64 / TRACKED as f64);
+            for _ in 0..STEPS {
+                let jet = polygon.jet(place);
+                let off = jet.point - at;
+                let slope = jet.first.length_squared() + off.dot(jet.second).max(0.0);
+                let step = off.dot(jet.first) / slope;
+                if !step.is_finite() {
+                    break;
+                }
+                place = (place - step.clamp(-0.5, 0.5)).clamp(from, last);
+                if step.abs() <= f64::EPSILON * last {
+                    break;
+                }
+            }
+            place
+        });
+        let mut places: Vec<f64> = places.collect();
+        for index in 1..places.len() {
+            places[index] = places[index].max(places[index - 1]);
+        }
+        Self { places }
+    }
+
+    /// The parameter of the other curve beside a parameter of this one.
+    pub fn at(&self, u: f64) -> f64 {
+        let place = (TRACKED as f64 * u).clamp(0.0, (self.places.len() - 1) as f64);
+        let before = (place as usize).min(self.places.len().saturating_sub(2));
+        let share = place - before as f64;
+        let next = self.places.get(before + 1).copied();
+        let before = self.places[before];
+        before + share * (next.unwrap_or(before) - before)
+    }
+}
