@@ -23,6 +23,9 @@ use crate::geometry::counted;
 /// How near to a leg the pointer must be to take it, in screen points: less than to a vertex.
 const LEG_REACH: f64 = 0.5 * REACH;
 
+/// How much nearer than the curve a leg must be to take a press, in screen points: legs hug fair curves.
+const CLEARLY: f64 = 3.0;
+
 /// The select tool's state.
 #[derive(Debug, Default)]
 pub struct SelectTool {
@@ -395,11 +398,12 @@ fn point_of_curve(place: DVec2, context: &Context) -> Option<CurveHit> {
     context.document.curve(hit.curve).map(|_| hit)
 }
 
-/// The leg that a press takes, if it is nearer than the curve.
+/// The leg that a press takes, if it is clearly nearer than the curve.
 fn leg_before(place: DVec2, curve: Option<CurveHit>, context: &Context) -> Option<LegHit> {
     let leg = context.hits.leg(place, LEG_REACH)?;
     let at = context.model(place);
-    let is_nearer = |curve: CurveHit| leg.point.distance(at) < curve.point.distance(at);
+    let clearly = CLEARLY * context.viewport.pixel();
+    let is_nearer = |curve: CurveHit| leg.point.distance(at) + clearly < curve.point.distance(at);
     curve.is_none_or(is_nearer).then_some(leg)
 }
 
