@@ -46,9 +46,12 @@ const MORE_TIME: Duration = Duration::from_millis(500);
 /// Levels of fewer extrema that begin those of more.
 const RELEASED: usize = 3;
 
-/// The search for the fewest extrema ends where so many numbers in a row come no nearer than this share.
-const STALE: usize = 4;
+/// The search for the fewest extrema ends where so many numbers in a row come no nearer than this share: fewer where
+/// the points are within so many times their noise, and more where they are not. A shape with four equal waves comes no
+/// nearer until all of them are allowed.
+const STALE: [usize; 2] = [4, 10];
 const GAIN: f64 = 0.9;
+const NOISY: f64 = 10.0;
 
 /// How near a number of extrema comes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -391,7 +394,10 @@ impl Fit<'_> {
             } else {
                 stale + 1
             };
-            if stale >= STALE || self.progress.is_cancelled() {
+            let best = search.best.as_ref().map_or(f64::INFINITY, |it| it.largest);
+            let is_noisy = best <= NOISY * self.prepared.noise;
+            let patience = STALE[usize::from(!is_noisy)];
+            if stale >= patience || self.progress.is_cancelled() {
                 break;
             }
             missed = Some(extrema);
