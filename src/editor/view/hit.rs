@@ -17,6 +17,9 @@ pub const REACH: f64 = 8.0;
 /// comb's tooth.
 const BESIDE: f64 = 2.0 * REACH;
 
+/// Nearer to a leg or to the curve than this, in screen points, a press is not meant for the tip of a tooth.
+const APART: f64 = 12.0;
+
 /// How much farther than a curve a reference counts, in screen points.
 const BEHIND: f64 = 2.0;
 
@@ -160,8 +163,13 @@ impl<'a> Sight<'a> {
 
     /// The place on one curve or reference under a place on the canvas, with its distance.
     fn hit_on(&self, id: CurveId, place: DVec2) -> Option<(f64, CurveHit)> {
+        self.hit_within(id, place, REACH)
+    }
+
+    /// The same within some screen points.
+    fn hit_within(&self, id: CurveId, place: DVec2, reach: f64) -> Option<(f64, CurveHit)> {
         let model = self.viewport().to_model(place);
-        let reach = REACH * self.viewport().pixel();
+        let reach = reach * self.viewport().pixel();
         let sampled = self.view.analyses.sampled(id)?;
         let outlines = &self.view.outlines.get(id)?.curve;
         let (u, point, distance) = outlines.nearest(sampled, model, reach)?;
@@ -176,6 +184,9 @@ impl<'a> Sight<'a> {
             return None;
         }
         let id = self.shown_active()?;
+        if self.leg(place, APART).is_some() || self.hit_within(id, place, APART).is_some() {
+            return None;
+        }
         let reference = self.view.analyses.reference(id);
         if reference.is_some_and(|reference| !reference.is_smooth()) {
             return None;
