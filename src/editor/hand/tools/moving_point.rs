@@ -10,9 +10,10 @@ use crate::editor::hand::snapping::Carried;
 use crate::editor::view::scene::Mark;
 use crate::geometry::{ClampedPolygon, FloatPolygon, significant};
 
-/// A press near an end, in segments, takes the end where a drag of the point moves vertices more than so many times as
-/// far.
+/// A press near an end, by segments and by a share of all, takes the end where a drag of the point moves vertices more
+/// than so many times as far.
 const NEAR_END: f64 = 0.5;
+const NEAR_SHARE: f64 = 0.1;
 const MOST_MAGNIFIED: f64 = 10.0;
 
 /// Vertices within so many screen points of a dragged point follow it, however many there are.
@@ -142,9 +143,11 @@ fn taken(
     let times = following.point_magnification(curve, point);
     let is_well = times.as_ref().is_ok_and(|times| *times <= MOST_MAGNIFIED);
     let last = polygon.vertices().len().saturating_sub(1);
-    let end = match (u, polygon.segments() as f64 - u) {
-        (before, after) if before <= after && before <= NEAR_END => Some(0),
-        (_, after) if after <= NEAR_END => Some(last),
+    let segments = polygon.segments() as f64;
+    let near = NEAR_END.min(NEAR_SHARE * segments);
+    let end = match u {
+        u if u <= near => Some(0),
+        u if segments - u <= near => Some(last),
         _ => None,
     };
     match end.filter(|_| !is_well && !polygon.is_periodic()) {
