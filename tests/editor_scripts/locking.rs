@@ -1,7 +1,9 @@
 //! Locking vertices by L, and what leaves them where they are.
 
 use batten::document::CurveId;
-use batten::editor::{Command, EndFitAction, Key, Modifiers, ToolKind, Transformation, told};
+use batten::editor::{
+    Command, EndFitAction, Input, Key, Modifiers, ToolKind, Transformation, told,
+};
 use batten::geometry::FloatPolygon;
 use batten::operations::Value;
 use glam::{DVec2, DVec3};
@@ -98,7 +100,11 @@ fn a_locked_vertex_is_not_dragged_and_stays_where_others_go() {
     );
     script.command(Command::Undo);
     script.command(Command::SelectNone);
-    let leg = 0.5 * (script.at_vertex(7) + script.at_vertex(8));
+    // Near by the leg is apart from the curve.
+    let leg = |script: &Script| 0.5 * (script.at_vertex(7) + script.at_vertex(8));
+    let (at, factor) = (leg(&script), 8.0);
+    script.input(Input::Zoomed { at, factor });
+    let leg = leg(&script);
     script.drag(leg, leg + DVec2::new(0.0, 40.0));
     assert_eq!(moved(&script, &before), [8]);
     script.command(Command::Undo);

@@ -202,7 +202,7 @@ fn tabs_choice_survives_jitter_and_is_what_a_drag_takes() {
 
 #[test]
 fn a_leg_that_is_dragged_is_what_is_selected() {
-    let mut script = Script::example("hull");
+    let mut script = Script::example("arc");
     script.click(script.at_vertex(1));
     let middle = 0.5 * (script.at_vertex(5) + script.at_vertex(6));
     script.press(middle);

@@ -147,7 +147,8 @@ fn a_leg_of_a_selection_takes_the_selection_along() {
     script.command(Command::SelectAll);
     script.command(Command::SelectAll);
     let before = [arc, other].map(|id| polygon_of(&script, id));
-    let middle = 0.5 * (script.at_vertex_of(other, 3) + script.at_vertex_of(other, 4));
+    // The first leg lies beyond the curve's end.
+    let middle = 0.5 * (script.at_vertex_of(other, 0) + script.at_vertex_of(other, 1));
     script.drag(middle, middle + DVec2::new(0.0, 30.0));
     for (id, before) in [arc, other].into_iter().zip(before) {
         let moved = polygon_of(&script, id).vertex(0) - before.vertex(0);
