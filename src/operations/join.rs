@@ -88,6 +88,9 @@ const CONTINUITY: Parameter = Parameter {
 /// A bridge longer than so many times the gap and the legs beside it goes a long way round.
 const LONG: f64 = 3.0;
 
+/// A gap of at most this share of the size of both curves is closed by merging where a bridge goes a long way round.
+const SMALL: f64 = 0.03;
+
 /// The relative error of a bridge's length.
 const LENGTH: f64 = 1e-3;
 
@@ -189,6 +192,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         turned: ends[0] == ends[1],
     };
     let sizes = [first, second].map(|it| BezierPolygon::from_float(&it.polygon).size());
+    let size = sizes[0].max(sizes[1]);
     let tolerance = given(values, &TOLERANCE);
     let joining = Joining {
         input,
@@ -196,7 +200,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         parts,
         ends,
         layout,
-        tolerance: tolerance.unwrap_or(WITHIN * sizes[0].max(sizes[1])),
+        size,
+        tolerance: tolerance.unwrap_or(WITHIN * size),
         progress,
     };
     let asked = values.choice(&METHOD, &METHODS);
@@ -219,6 +224,8 @@ struct Joining<'a> {
     parts: [Part<'a>; 2],
     ends: [End; 2],
     layout: Layout,
+    /// The size of the larger curve.
+    size: f64,
     tolerance: f64,
     progress: &'a Progress,
 }
@@ -247,6 +254,10 @@ impl Joining<'_> {
         let Some(detour) = detour else {
             return Ok(bridged);
         };
+        if gap > SMALL * self.size {
+            bridged.remarks.push(advice(&detour));
+            return Ok(bridged);
+        }
         // A hair more, so that rounding does not leave the ends apart.
         match self.merged(gap * (1.0 + MET)) {
             Ok(mut merged) => {
