@@ -2,8 +2,8 @@
 
 use std::hint::black_box;
 
-use batten::geometry::fairing::following::{Moved, follow_in_harmony};
 use batten::geometry::fairing::harmonising::{Harmony, Held, harmonise};
+use batten::geometry::fairing::least_change::{Dragged, Reach, least_change};
 use batten::geometry::{FloatPolygon, Progress};
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use glam::DVec3;
@@ -24,20 +24,39 @@ fn arc(count: usize, noise: f64) -> FloatPolygon {
 }
 
 fn live(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("live harmony, degree 9, all vertices follow");
+    let mut group =
+        criterion.benchmark_group("drags by least change, degree 9; all vertices follow a vertex");
     for count in [60, 250, 1000, 2000] {
         let polygon = arc(count, 0.0);
-        let vertex = count / 2;
-        let place = polygon.vertex(vertex) + DVec3::new(0.3, 0.2, 0.0);
-        let moved = Moved::Vertices(vec![(vertex, place)]);
-        group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
-            bencher.iter(|| follow_in_harmony(black_box(&polygon), &moved, count, 0.01, &[]));
-        });
+        let (vertex, by) = (count / 2, DVec3::new(0.3, 0.2, 0.0));
+        let drags = [
+            (
+                "vertex",
+                Dragged::Vertices(vec![(vertex, polygon.vertex(vertex) + by)]),
+                count,
+            ),
+            (
+                "point",
+                Dragged::Point(0.5 * polygon.segments() as f64, by),
+                1,
+            ),
+            ("closed vertex", Dragged::Clamped(0, by), 1),
+        ];
+        for (name, dragged, span) in drags {
+            let reach = Reach {
+                span,
+                stiffness: 1e-4,
+                locked: &[],
+            };
+            group.bench_function(BenchmarkId::new(name, count), |bencher| {
+                bencher.iter(|| least_change(black_box(&polygon), &dragged, &reach));
+            });
+        }
     }
     group.finish();
 }
 
-fn least_change(criterion: &mut Criterion) {
+fn harmonising(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("harmonise, degree 9, noise 5 % of a leg");
     group.sample_size(10);
     for count in [60, 250, 2000] {
@@ -58,5 +77,5 @@ fn least_change(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, live, least_change);
+criterion_group!(benches, live, harmonising);
 criterion_main!(benches);
