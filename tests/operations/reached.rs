@@ -91,7 +91,13 @@ impl Seen {
     /// Changes of sign of a function along the curve, where its values are certain beside the size of their terms.
     fn changes(&self, of: impl Fn(f64) -> [f64; 2]) -> usize {
         let count = PARTS * (self.vertices.len() - self.degree);
-        let inside = (0..count).map(|part| of((part as f64 + 0.5) / PARTS as f64));
+        let even = (0..count).map(|part| (part as f64 + 0.5) / PARTS as f64);
+        // An extremum may lie beside an end.
+        let beside = (3..10).map(|digits| 10.0_f64.powi(-digits));
+        let end = self.end(1);
+        let starts = beside.clone().rev();
+        let places = starts.chain(even).chain(beside.map(|it| end - it));
+        let inside = places.map(of);
         let certain = inside.filter(|[value, size]| value.abs() > CERTAIN * size);
         let signs: Vec<bool> = certain.map(|[value, _]| value > 0.0).collect();
         signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
@@ -381,7 +387,8 @@ fn join(random: &mut Random) -> Case {
     Case {
         operation: "join",
         input: Operands::new(&document, ids).expect("both are there"),
-        values: Vec::new(),
+        // A bridge keeps both parts.
+        values: vec![("method", Value::Choice(2))],
         ends: [Wanted::default(); 2],
         extrema: None,
         inflections: None,
