@@ -175,7 +175,11 @@ impl Following {
     }
 
     /// Say how many vertices follow a point of a curve.
-    pub fn point_words(&self, polygon: &FloatPolygon, point: DraggedPoint) -> String {
+    pub(in crate::editor) fn point_words(
+        &self,
+        polygon: &FloatPolygon,
+        point: DraggedPoint,
+    ) -> String {
         let following = polygon.degree() + 1 + 2 * self.span_of(point);
         let following = following.min(polygon.vertices().len());
         format!("{} follow", counted(following, "vertex", "vertices"))
@@ -197,7 +201,7 @@ impl Following {
     ///
     /// # Errors
     /// [`FollowError`] if a vertex would leave the range of numbers.
-    pub fn edits(
+    pub(in crate::editor) fn edits(
         &self,
         before: &Document,
         moved: impl IntoIterator<Item = (VertexId, DVec3)>,
@@ -231,7 +235,7 @@ impl Following {
     ///
     /// # Errors
     /// [`FollowError`].
-    pub fn point_edit(
+    pub(in crate::editor) fn point_edit(
         &self,
         before: &Document,
         curve: CurveId,
@@ -252,7 +256,7 @@ impl Following {
     ///
     /// # Errors
     /// [`LeastChangeError`] if too few vertices are free.
-    pub fn point_magnification(
+    pub(in crate::editor) fn point_magnification(
         &self,
         curve: &Curve,
         point: DraggedPoint,

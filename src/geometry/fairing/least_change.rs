@@ -114,6 +114,9 @@ pub fn magnification(
     Ok(if size > 0.0 { most / size } else { 1.0 })
 }
 
+/// Vertices that move, and by how much.
+type Moves = Vec<(usize, DVec3)>;
+
 /// A change to solve for.
 struct Change<'a> {
     polygon: &'a FloatPolygon,
@@ -216,7 +219,7 @@ impl<'a> Change<'a> {
     }
 
     /// Solve for the moves of all vertices that move.
-    fn moves(&self, by: &[DVec3]) -> Result<Vec<(usize, DVec3)>, LeastChangeError> {
+    fn moves(&self, by: &[DVec3]) -> Result<Moves, LeastChangeError> {
         let mut ends = self.ends.clone();
         for (end, target) in &mut ends {
             if self.held_from(*end) == Some(0) {
@@ -275,7 +278,7 @@ impl<'a> Change<'a> {
         &self,
         by: &[DVec3],
         ends: &[(End, EndTarget)],
-    ) -> Result<(Vec<(usize, DVec3)>, Option<Lost>), LeastChangeError> {
+    ) -> Result<(Moves, Option<Lost>), LeastChangeError> {
         let polygon = self.polygon;
         let mut begun = polygon.clone();
         let held = self.held.iter().zip(by);
