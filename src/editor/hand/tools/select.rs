@@ -392,10 +392,11 @@ impl SelectTool {
     }
 }
 
-/// The point of a curve, of no reference, that a press takes.
+/// The point of a curve, of no reference, that a press takes. A curve of degree 1 is its legs, which are dragged instead.
 fn point_of_curve(place: DVec2, context: &Context) -> Option<CurveHit> {
     let hit = context.hits.curve(place)?;
-    context.document.curve(hit.curve).map(|_| hit)
+    let curve = context.document.curve(hit.curve)?;
+    (curve.polygon.degree() > 1).then_some(hit)
 }
 
 /// The leg that a press takes, if it is clearly nearer than the curve.
