@@ -130,7 +130,8 @@ fn the_view_is_fitted_again_until_it_is_changed() {
 
     press(&mut window, Modifiers::NONE, Key::H);
     let (_, fitted) = middle(&window);
-    let at = vertex(&window, 4);
+    // Below the switches of the layers.
+    let at = vertex(&window, 8);
     drag(&mut window, at, at + vec2(20.0, 20.0));
     window.set_size(vec2(1900.0, 1100.0));
     window.run();
