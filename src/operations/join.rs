@@ -9,6 +9,7 @@ use super::bridge::{self, BRIDGE, annotations, figures, joint};
 use super::composite::{Composite, Layout, Part, without_circles};
 use super::editable::open_of;
 use super::error::OperationError;
+use super::fit_piece::features;
 use super::inputs::Inputs;
 use super::lists::{given, given_count};
 use super::locks;
@@ -19,6 +20,7 @@ use super::parameter::{Choice, Kind, POSITIVE, Parameter};
 use super::targets::place_of;
 use super::values::Values;
 use crate::document::{Edit, EndMatch, MatchPlace};
+use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::bridging::{Bridge, Bridged, join};
 use crate::geometry::fairing::merging::{Joint, MergeError, Merged, Track, merge};
 use crate::geometry::fairing::requirement::Requirement;
@@ -206,15 +208,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     };
     let asked = values.choice(&METHOD, &METHODS);
     let implied = moves || given_count(values, &BRIDGE).is_some();
-    let mut outcome = match asked.or(implied.then_some(Method::Bridge)) {
+    match asked.or(implied.then_some(Method::Bridge)) {
         Some(Method::Merge) => joining.merged(joining.tolerance),
         Some(Method::Bridge) => joining.bridged(),
         Some(Method::Chain) => joining.chained(),
         None => joining.best(),
-    }?;
-    let joined = Figure::ends("joined", "Joined", ends);
-    outcome.figures.insert(1, joined);
-    Ok(outcome)
+    }
 }
 
 /// Two curves to join.
@@ -332,14 +331,20 @@ impl Joining<'_> {
             found: deviation,
             most: tolerance,
         };
-        outcome.requirements = vec![(id, vec![limit])];
-        outcome.figures = vec![
-            method("merge"),
+        let outer = [(left, End::Start), (right, End::Finish)];
+        let ends = outer.map(|(part, end)| {
+            let target = EndTarget::keeping(&part.end_jet(end));
+            place_of(&polygon, end, target, MET * self.size)
+        });
+        let requirements = features(Some(extrema[1]), None).into_iter().chain(ends);
+        outcome.requirements = vec![(id, requirements.chain([limit]).collect())];
+        outcome.figures = self.method("merge").into();
+        outcome.figures.extend([
             Figure::length("tolerance", "Tolerance", tolerance),
             Figure::count("vertices", "Vertices", polygon.vertices().len()),
             Figure::count("extrema_before", "Curvature extrema of both", extrema[0]),
             Figure::count("extrema", "Curvature extrema", extrema[1]),
-        ];
+        ]);
         let at = tracks[0].at(left.segments() as f64);
         outcome
             .annotations
@@ -383,7 +388,7 @@ impl Joining<'_> {
         let composite = self.composite(&found.polygon, &part, None);
         let moved = moves.then(|| composite.farthest_move());
         self.compose(&composite, &mut outcome)?;
-        outcome.figures = vec![method("bridge")];
+        outcome.figures = self.method("bridge").into();
         outcome.figures.extend(figures(&found));
         outcome.figures.extend(
             moved.map(|moved| Figure::length("second_move", "Largest move of the second", moved)),
@@ -440,10 +445,12 @@ impl Joining<'_> {
         let mut outcome = Outcome::unchanged(Deviation::AtMost(moved));
         outcome.requirements = vec![(other, vec![place_of(polygon, end, target, tolerance)])];
         outcome.edits = edits;
-        outcome.figures = vec![
-            method("chain"),
-            Figure::length("second_move", "Largest move of the second", moved),
-        ];
+        outcome.figures = self.method("chain").into();
+        outcome.figures.push(Figure::length(
+            "second_move",
+            "Largest move of the second",
+            moved,
+        ));
         outcome.remarks = dropped;
         outcome.remarks.push(format!(
             "Both stay curves; the second follows the first up to {}",
@@ -469,6 +476,12 @@ impl Joining<'_> {
         }
     }
 
+    /// The method, and the ends that it joins.
+    fn method(&self, name: &'static str) -> [Figure; 2] {
+        let method = Figure::word("method", "Method", name);
+        [method, Figure::ends("joined", "Joined", self.ends)]
+    }
+
     /// Make the first curve the composite.
     fn compose(&self, composite: &Composite, outcome: &mut Outcome) -> Result<(), OperationError> {
         let drops = self.values.switch(&DROP_MATCH);
@@ -478,10 +491,6 @@ impl Joining<'_> {
         outcome.remarks.extend(dropped);
         Ok(())
     }
-}
-
-fn method(name: &'static str) -> Figure {
-    Figure::word("method", "Method", name)
 }
 
 fn advice(detour: &str) -> String {

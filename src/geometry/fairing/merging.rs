@@ -3,6 +3,8 @@
 //! The engine that fits points with a wished number of curvature extrema fits both curves at once: the result has
 //! those of both, and at most two more at the joint.
 
+use std::f64::consts::PI;
+
 use glam::DVec2;
 use thiserror::Error;
 
@@ -12,11 +14,12 @@ use crate::geometry::error::PolygonError;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::fitting::{Extrema, FitError, PlaneFit, fit_plane};
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::nearest::refined_parameter;
 use crate::geometry::progress::Progress;
 use crate::geometry::wording::significant;
 
 /// The largest angle between the tangents of curves that meet without a corner, in radians: 0.1°.
-pub const SMOOTH: f64 = 0.1 * std::f64::consts::PI / 180.0;
+pub const SMOOTH: f64 = 0.1 * PI / 180.0;
 
 /// The samples of a segment that the merged curve is near to.
 const SAMPLES: usize = 6;
@@ -24,8 +27,8 @@ const SAMPLES: usize = 6;
 /// The samples of a segment by which places of the curves are followed along the merged one.
 const TRACKED: usize = 16;
 
-/// The most Newton steps to a nearest point.
-const STEPS: usize = 12;
+/// How far ahead of the place before a place is looked for, in segments.
+const AHEAD: f64 = 2.0;
 
 /// The most extrema that a joint may add: where curvature jumps, it must rise and fall there.
 const ADDED: usize = 2;
@@ -97,9 +100,6 @@ pub enum MergeError {
     /// The computation was ended early.
     #[error("merging was cancelled")]
     Cancelled,
-    /// The curves cannot be fitted.
-    #[error(transparent)]
-    Fit(#[from] FitError),
     /// A curve is periodic.
     #[error(transparent)]
     Polygon(#[from] PolygonError),
@@ -110,7 +110,7 @@ pub enum MergeError {
 pub struct Joint {
     /// The distance of the ends.
     pub distance: f64,
-    /// The angle between the tangents, in radians; not a number where there is none.
+    /// The angle between the tangents, in radians; half a turn where an end has none.
     pub angle: f64,
 }
 
@@ -121,7 +121,7 @@ impl Joint {
         let tangents = end.tangent().zip(start.tangent());
         Self {
             distance: end.point.distance(start.point),
-            angle: tangents.map_or(f64::NAN, |(a, b)| a.angle_between(b)),
+            angle: tangents.map_or(PI, |(a, b)| a.angle_between(b)),
         }
     }
 
@@ -257,25 +257,11 @@ impl Track {
         let samples = 0..=TRACKED * curve.segments();
         let places = samples.map(|sample| {
             let at = curve.point(sample as f64 / TRACKED as f64);
-            for _ in 0..STEPS {
-                let jet = polygon.jet(place);
-                let off = jet.point - at;
-                let slope = jet.first.length_squared() + off.dot(jet.second).max(0.0);
-                let step = off.dot(jet.first) / slope;
-                if !step.is_finite() {
-                    break;
-                }
-                place = (place - step.clamp(-0.5, 0.5)).clamp(from, last);
-                if step.abs() <= f64::EPSILON * last {
-                    break;
-                }
-            }
+            let bracket = [place, (place + AHEAD).min(last)];
+            place = refined_parameter(at, place, bracket, |u| polygon.jet(u));
             place
         });
-        let mut places: Vec<f64> = places.collect();
-        for index in 1..places.len() {
-            places[index] = places[index].max(places[index - 1]);
-        }
+        let places = places.collect();
         Self { places }
     }
 
