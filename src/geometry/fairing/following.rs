@@ -3,15 +3,12 @@
 use glam::DVec3;
 
 use super::joint_correction::{CorrectionError, Disturbance, correct_jointly};
-use super::least_change::mark_near;
+use super::least_change::{ORDER, mark_near};
 use crate::geometry::end::End;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
-
-/// The order of the differences of the moves that are kept small.
-const ORDER: usize = 2;
 
 /// Let an end of an open curve go to a target, and the vertices near it follow with the least second differences of
 /// their moves.

@@ -15,7 +15,7 @@ use crate::geometry::error::PolygonError;
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// The order of the differences of the moves that are kept small: a move spreads without corners.
-const ORDER: usize = 2;
+pub(super) const ORDER: usize = 2;
 
 /// The least weight of the moves themselves: it keeps equations regular where all vertices follow. Less would amplify
 /// rounding there, more would let moves fade within 30 vertices.
