@@ -311,7 +311,8 @@ impl Fit<'_> {
         }
         let polygon = level.polygon()?;
         // Where the points leave no choice, hooks at the ends are theirs.
-        if self.task(0, None).winds(&polygon, &level) {
+        let task = self.task(0, None);
+        if task.winds_between(&polygon, &level, &task.placed_points(&level)) {
             return None;
         }
         let features = Features::proved(&polygon, |_| !self.progress.is_cancelled())?;

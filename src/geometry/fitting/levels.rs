@@ -434,14 +434,18 @@ impl<'a> Task<'a> {
         level
     }
 
-    /// Whether the curve goes astray between its points: by a loop, or by turns that they do not show.
-    pub(super) fn winds(&self, polygon: &FloatPolygon, level: &Level) -> bool {
-        let points = self.placed_points(level);
-        loops(&self.problem(level.splines.count), &level.start) || winds(polygon, &points)
+    /// Whether the curve winds between its points: by a loop, or by turns that they do not show.
+    pub(super) fn winds_between(
+        &self,
+        polygon: &FloatPolygon,
+        level: &Level,
+        points: &[(DVec2, f64)],
+    ) -> bool {
+        loops(&self.problem(level.splines.count), &level.start) || winds(polygon, points)
     }
 
     /// The points that count with their parameters; those of a ring end with the first one.
-    fn placed_points(&self, level: &Level) -> Vec<(DVec2, f64)> {
+    pub(super) fn placed_points(&self, level: &Level) -> Vec<(DVec2, f64)> {
         let places = &level.start.curve.places;
         let points = self.data.points.iter().copied().zip(places.iter().copied());
         let heavy = points.zip(self.data.counts).filter(|(_, counts)| **counts);
@@ -457,7 +461,8 @@ impl<'a> Task<'a> {
         let Some(polygon) = level.polygon() else {
             return false;
         };
-        if self.winds(&polygon, level) || hooks(&polygon, &self.placed_points(level)) {
+        let points = self.placed_points(level);
+        if self.winds_between(&polygon, level, &points) || hooks(&polygon, &points) {
             return false;
         }
         let features = Features::proved(&polygon, |_| !self.progress.is_cancelled());
