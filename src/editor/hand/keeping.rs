@@ -83,6 +83,11 @@ impl Keeping {
         };
     }
 
+    /// Forget what a drag added.
+    pub fn forget_added(&mut self) {
+        self.added = None;
+    }
+
     /// Change the edits of a drag so that nothing is added to `settled`, the document as it was when
     /// the drag began, by what `try_out` says that they show.
     pub fn keep(

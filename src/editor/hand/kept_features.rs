@@ -33,7 +33,7 @@ impl Hand {
         analyses: &AnalysisCache,
     ) {
         if self.keeps_features() || !self.turns_following() {
-            return;
+            return self.keeping.forget_added();
         }
         let known = known_features(analyses);
         let (after, settled) = (workspace.document(), workspace.settled());
