@@ -188,7 +188,7 @@ pub static CUBIC_HELIX: ReferenceKind = ReferenceKind {
 pub static CONICAL_HELIX: ReferenceKind = ReferenceKind {
     name: "conical-helix",
     label: "Conical helix",
-    help: "a e^(bt) (cos t, sin t, c): of constant slope on a cone; radii of curvature and torsion are proportional to the arc length",
+    help: "a e^(bt) (cos t, sin t, c): both radii, of curvature and torsion, grow with the arc length",
     parameters: &[
         POLE_DISTANCE,
         LOGARITHMIC_GROWTH,

@@ -17,7 +17,7 @@ use crate::geometry::power_series::PowerSeries;
 pub static KIND: ReferenceKind = ReferenceKind {
     name: "log-aesthetic",
     label: "Log-aesthetic curve",
-    help: "Radius of curvature (1 + Λαs)^(1/α) at arc length s: α = −1 is a clothoid, 0 Nielsen's spiral, 1 a logarithmic spiral, 2 a circle involute",
+    help: "Radius (1 + Λαs)^(1/α) at arc length s: α −1 clothoid, 0 Nielsen, 1 logarithmic, 2 involute",
     parameters: &[
         Parameter::new(
             "alpha",
