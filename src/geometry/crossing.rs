@@ -2,12 +2,26 @@
 
 use glam::DVec2;
 
+use super::float_polygon::FloatPolygon;
+
+/// The legs of a polyline along a segment of a curve: loops are seen that span a few of them.
+const SAMPLES: usize = 32;
+
 /// Legs that come nearer to each other than this share of the polyline's size touch.
 const TOUCHING: f64 = 1e-12;
 
+/// Find a point near where a curve crosses itself in the plane z = 0, by a polyline of 32 legs a segment; `None` if that
+/// does not cross itself.
+pub fn curve_crossing(polygon: &FloatPolygon) -> Option<DVec2> {
+    let samples = polygon.segments() * SAMPLES;
+    let places = (0..=samples).map(|sample| sample as f64 / SAMPLES as f64);
+    let points: Vec<DVec2> = places.map(|u| polygon.point(u).truncate()).collect();
+    crossing(&points)
+}
+
 /// Find a point where a polyline crosses itself: the first one found from the side of the least x. Legs that only
 /// touch, but for rounding, do not cross. `None` if it does not cross itself.
-pub fn crossing(points: &[DVec2]) -> Option<DVec2> {
+pub(super) fn crossing(points: &[DVec2]) -> Option<DVec2> {
     let touching = TOUCHING
         * points
             .iter()

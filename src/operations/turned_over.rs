@@ -3,17 +3,19 @@
 use std::f64::consts::PI;
 
 use crate::geometry::features::Turning;
-use crate::geometry::{FloatPolygon, significant};
+use crate::geometry::{FloatPolygon, curve_crossing, significant};
 
 /// Say that a planar polynomial curve turns by more than half a turn more or less than before: it has a loop, or is
-/// inside out.
+/// inside out. `None` where it only lost a loop.
 pub(super) fn turned_over(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
     let both = [before, after];
     if both.iter().any(|it| !it.is_planar() || it.is_rational()) {
         return None;
     }
     let [old, new] = both.map(|polygon| Turning::new(polygon).total());
-    ((new - old).abs() > PI).then(|| {
+    let turns_over = (new - old).abs() > PI;
+    let lost_loop = || curve_crossing(before).is_some() && curve_crossing(after).is_none();
+    (turns_over && !lost_loop()).then(|| {
         let [old, new] = [old, new].map(|angle| significant(angle.to_degrees(), 3));
         format!("The curve turns by {new}° in all, before by {old}°")
     })
@@ -30,6 +32,7 @@ mod tests {
         let bent = planar(&[(0.0, 0.0), (1.0, 0.0), (2.0, 1.0), (2.0, 2.0), (1.0, 3.0)]);
         let looped = planar(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, -1.0)]);
         assert_eq!(turned_over(&straight, &bent), None);
+        assert_eq!(turned_over(&looped, &straight), None);
         let told = turned_over(&straight, &looped).expect("a remark");
         assert!(told.contains("270°") && told.contains("by 0°"), "{told}");
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use crate::geometry::crossing::crossing;
+use crate::geometry::crossing::{crossing, curve_crossing};
 use crate::geometry::features::Turning;
 use crate::geometry::float_polygon::FloatPolygon;
 
@@ -18,9 +18,6 @@ const CLEAN: f64 = 1.0;
 /// An end that turns from the outermost chord by more than this and the turn of the polyline beside it, in radians, is
 /// a hook.
 const HOOK: f64 = 0.5;
-
-/// Samples of a segment by which crossings are found.
-const SAMPLES: usize = 32;
 
 /// A chord between two points that follow each other.
 struct Chord {
@@ -71,10 +68,7 @@ pub(super) fn hooks(polygon: &FloatPolygon, points: &[(DVec2, f64)]) -> bool {
 
 /// A point where a curve crosses itself, at samples, if the polyline of its points does not.
 pub(super) fn crossing_of(polygon: &FloatPolygon, points: &[DVec2]) -> Option<DVec2> {
-    let samples = polygon.segments() * SAMPLES;
-    let places = (0..=samples).map(|sample| sample as f64 / SAMPLES as f64);
-    let curve: Vec<DVec2> = places.map(|u| polygon.point(u).truncate()).collect();
-    crossing(&curve).filter(|_| crossing(points).is_none())
+    curve_crossing(polygon).filter(|_| crossing(points).is_none())
 }
 
 /// The chords of points that differ.
