@@ -380,6 +380,57 @@ fn a_fitted_curve_is_no_farther_away_than_it_says() {
     assert!(fitted > 0);
 }
 
+/// The Eppler 585 section by least squares without conditions, degree 5: seven extrema and more.
+const SECTION: [(f64, f64); 24] = [
+    (1.036028, -0.053239),
+    (1.100464, -0.038867),
+    (1.030518, -0.004611),
+    (0.837713, 0.047409),
+    (0.645960, 0.096231),
+    (0.502779, 0.116657),
+    (0.346694, 0.119244),
+    (0.199032, 0.103367),
+    (0.081892, 0.070811),
+    (0.017381, 0.033515),
+    (-0.000942, 0.006879),
+    (0.000634, 0.000042),
+    (-0.001047, -0.000391),
+    (0.002373, -0.005327),
+    (-0.000036, 0.000180),
+    (0.004151, -0.016396),
+    (0.146963, -0.031164),
+    (0.364238, -0.029817),
+    (0.548122, -0.032820),
+    (0.734601, -0.013364),
+    (0.926098, 0.014945),
+    (1.033383, -0.002463),
+    (1.006040, -0.009358),
+    (0.841325, -0.000107),
+];
+
+#[test]
+fn a_fit_leaves_locked_vertices_in_their_places() {
+    let polygon = FloatPolygon::planar(5, &SECTION).expect("a polygon");
+    let mut fitted = 0;
+    for (extrema, locked) in [(1, [8]), (3, [12])] {
+        let asked = Harmony {
+            ends: [Held::Position; 2],
+            inflections: None,
+            locked: &locked,
+            largest_deviation: Some(5e-3),
+            ..asked(extrema, 0)
+        };
+        let found = harmonise(&polygon, &asked, &Progress::default()).expect("a result");
+        assert!(found.reached, "{extrema} {locked:?}");
+        for vertex in locked {
+            assert_eq!(found.polygon.vertex(vertex), polygon.vertex(vertex));
+        }
+        assert!(off(&found.polygon, &polygon) <= 5e-3);
+        fitted += usize::from(found.refitted);
+    }
+    assert!(fitted > 0);
+}
+
 /// A noisy ellipse of 44 unit legs and degree 5, whose curvature is monotone over the seam, and the
 /// stretch where it is.
 fn noisy_ellipse(random: &mut Random) -> (FloatPolygon, [f64; 2]) {

@@ -20,8 +20,11 @@ pub(super) fn fit_conditions(
     polygon: &FloatPolygon,
     harmony: &Harmony,
 ) -> Option<[Option<usize>; 2]> {
-    let is_whole = harmony.stretch.is_none() && harmony.locked.is_empty();
-    if !is_whole || !polygon.is_planar() || polygon.weights().is_some() || polygon.degree() < 3 {
+    if harmony.stretch.is_some()
+        || !polygon.is_planar()
+        || polygon.weights().is_some()
+        || polygon.degree() < 3
+    {
         return None;
     }
     let order = |held: Held| match held {
@@ -49,12 +52,13 @@ pub(super) fn fitted(
             extrema: known.request.extrema,
             inflections,
             kept,
+            locked: harmony.locked,
         };
         let refitted = refit(polygon, &asked, &progress.hurried(share))?;
         let is_limit = |it: &Requirement| matches!(it, Requirement::Limit { .. });
         let requirements = known.requirements.iter().filter(|it| !is_limit(it));
         let requirements: Vec<Requirement> = requirements.cloned().collect();
-        let refitted = with_ends(refitted, &requirements, progress);
+        let refitted = with_ends(refitted, &requirements, harmony.locked, progress);
         let features = Features::proved(&refitted, |_| !progress.is_cancelled())?;
         let found = counted(&features, true, None);
         let measured = MeasuredDeviation::between(&refitted, polygon, progress).ok()?;
@@ -93,6 +97,7 @@ pub(super) fn fitted(
 fn with_ends(
     polygon: FloatPolygon,
     requirements: &[Requirement],
+    locked: &[usize],
     progress: &Progress,
 ) -> FloatPolygon {
     let places = requirements
@@ -110,6 +115,6 @@ fn with_ends(
     let targets = places.iter().map(|place| (end(place.u), place.target));
     let targets: Vec<(End, EndTarget)> = targets.collect();
     let order = Disturbance::Differences(3);
-    let corrected = correct_jointly(&polygon, &targets, order, &[], progress);
+    let corrected = correct_jointly(&polygon, &targets, order, locked, progress);
     corrected.map_or(polygon, |corrected| corrected.polygon)
 }

@@ -160,10 +160,11 @@ impl Conditions {
     }
 }
 
-/// The equations E y = e of the conditions at the ends, for moves of vertices in units of `scales`.
+/// The equations E y = e of the conditions at the ends and of held vertices, for moves of vertices in units of
+/// `scales`.
 ///
 /// A point's rows tell shares of a leg, those of a direction radians, those of a curvature turns a segment.
-pub(super) fn end_equations(
+pub(super) fn equations(
     problem: &Problem,
     vertices: &[DVec2],
     scales: &[f64],
@@ -218,6 +219,14 @@ pub(super) fn end_equations(
                     firsts[k] * by_first + seconds[k] * first.perp() / square
                 });
             }
+        }
+    }
+    for held in problem.data.held {
+        let missing = (held.point - vertices[held.vertex]) / scales[held.vertex];
+        for (axis, right) in missing.to_array().into_iter().enumerate() {
+            let mut row = vec![0.0; problem.layout.unknowns()];
+            row[problem.layout.unknown(held.vertex) + axis] = 1.0;
+            equations.push((row, right));
         }
     }
     equations

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::banded_rows::{BandMatrix, Rows};
-use super::conditions::{Conditions, end_equations};
+use super::conditions::{self, Conditions};
 use super::interior_point::{QuadraticProgram, Solution};
 use super::problem::{LEG_REACH, PlacedCurve, Problem, Start};
 use crate::geometry::progress::Progress;
@@ -325,7 +325,7 @@ impl Descent<'_> {
         let (rows, norms) = normalised(&now.conditions.rows, &scales);
         Model {
             values: shares(&now.conditions.values, &norms),
-            equations: end_equations(problem, vertices, &scales),
+            equations: conditions::equations(problem, vertices, &scales),
             scales,
             matrix,
             gradient,
@@ -458,7 +458,7 @@ impl Descent<'_> {
     fn merit(&self, measured: &Measured, model: &Model, price: f64) -> f64 {
         let values = shares(&measured.conditions.values, &model.norms);
         let vertices = &measured.start.curve.vertices;
-        let equations = end_equations(self.problem, vertices, &model.scales);
+        let equations = conditions::equations(self.problem, vertices, &model.scales);
         merit(measured.value, &values, &equations, price)
     }
 
@@ -483,7 +483,7 @@ impl Descent<'_> {
     fn restore(&self, now: &mut Measured) -> bool {
         for _ in 0..RESTORATIONS {
             let scales = self.scales(&now.start.curve.vertices);
-            let equations = end_equations(self.problem, &now.start.curve.vertices, &scales);
+            let equations = conditions::equations(self.problem, &now.start.curve.vertices, &scales);
             let held = equations.iter().all(|(_, missed)| missed.abs() < END_GOAL);
             if held && now.conditions.hold() {
                 return true;
@@ -508,7 +508,7 @@ impl Descent<'_> {
             now.conditions = Conditions::new(self.problem, &now.start, None, true);
         }
         let vertices = &now.start.curve.vertices;
-        let equations = end_equations(self.problem, vertices, &self.scales(vertices));
+        let equations = conditions::equations(self.problem, vertices, &self.scales(vertices));
         let held = equations
             .iter()
             .all(|(_, missed)| missed.abs() < END_TOLERANCE);

@@ -201,6 +201,7 @@ impl Fit<'_> {
                 weights: &prepared.weights,
                 counts: &prepared.counts,
                 ends: &prepared.ends,
+                held: &[],
                 mirror: self.asked.mirror,
             },
             degree: self.asked.degree,
@@ -210,6 +211,7 @@ impl Fit<'_> {
             count: self.asked.count,
             most: most.max(self.asked.degree + 1),
             tolerance,
+            known: None,
             tables: &self.tables,
             progress: self.progress,
         }

@@ -97,6 +97,8 @@ pub(super) struct Task<'a> {
     pub(super) most: usize,
     /// The largest distance of a point.
     pub(super) tolerance: Option<f64>,
+    /// A curve with the number of vertices asked for that is to change little.
+    pub(super) known: Option<&'a PlacedCurve>,
     pub(super) tables: &'a SlopeTables,
     pub(super) progress: &'a Progress,
 }
@@ -297,7 +299,12 @@ impl<'a> Task<'a> {
     }
 
     fn problem(&self, count: usize) -> Problem<'a> {
-        Problem::new(self.data, self.splines(count), self.tables)
+        let held = if self.count == Some(count) {
+            self.data.held
+        } else {
+            &[]
+        };
+        Problem::new(Data { held, ..self.data }, self.splines(count), self.tables)
     }
 
     fn splines(&self, count: usize) -> Splines {
@@ -352,6 +359,13 @@ impl<'a> Task<'a> {
                 }
             }
         }
+        let own = self.known.filter(|_| self.count == Some(count)).cloned();
+        for start in own
+            .into_iter()
+            .flat_map(|own| self.starts_at(&problem, own))
+        {
+            better(&mut found, self.attempt(&problem, start, FRESH_STEPS));
+        }
         for less in fewer {
             let near = less.splines.count as f64 > 0.6 * count as f64 || is_last;
             if less.splines.count <= count && near {
@@ -397,6 +411,11 @@ impl<'a> Task<'a> {
         let Some(curve) = problem.smoothed(places, fair, ROUNDS) else {
             return Vec::new();
         };
+        self.starts_at(problem, curve)
+    }
+
+    /// Starts at the patterns of a curve.
+    fn starts_at(&self, problem: &Problem, curve: PlacedCurve) -> Vec<Start> {
         let bends = self.inflections;
         let bends = bends.map(|inflections| problem.bend_runs(&curve.vertices, inflections));
         let runs = problem.slope_runs(&curve.vertices, self.extrema);

@@ -46,7 +46,14 @@ pub(in crate::geometry) enum EndValue {
     Curvature(f64),
 }
 
-/// Points with weights, and conditions at the ends.
+/// A vertex that stays where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct HeldVertex {
+    pub(super) vertex: usize,
+    pub(super) point: DVec2,
+}
+
+/// Points with weights, and conditions at the ends and on vertices.
 #[derive(Clone, Copy)]
 pub(super) struct Data<'a> {
     pub(super) points: &'a [DVec2],
@@ -54,6 +61,8 @@ pub(super) struct Data<'a> {
     /// Which points count in errors; the others only guide the curve.
     pub(super) counts: &'a [bool],
     pub(super) ends: &'a [EndCondition],
+    /// The vertices that stay, of a curve with the number of vertices asked for.
+    pub(super) held: &'a [HeldVertex],
     /// The axis in which the curve is its own mirror image.
     pub(super) mirror: Option<Mirror>,
 }
@@ -372,6 +381,7 @@ impl<'a> Problem<'a> {
             weights: &even,
             counts: &[],
             ends: &[],
+            held: &[],
             mirror: self.data.mirror,
         };
         let places: Vec<f64> = shares.iter().map(|share| share * end).collect();

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::levels::Task;
-use super::problem::{Data, EndCondition, EndValue};
+use super::problem::{Data, EndCondition, EndValue, HeldVertex, PlacedCurve};
 use super::slope_coefficients::SlopeTables;
 use crate::geometry::end::End;
 use crate::geometry::float_polygon::FloatPolygon;
@@ -14,7 +14,7 @@ const SAMPLES: usize = 6;
 
 /// What the new curve has.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::geometry) struct Refit {
+pub(in crate::geometry) struct Refit<'a> {
     /// The number of curvature extrema.
     pub(in crate::geometry) extrema: usize,
     /// The number of inflections; `None` for any.
@@ -22,6 +22,8 @@ pub(in crate::geometry) struct Refit {
     /// Up to which derivative each end stays as it is: `Some(0)` for the point, `Some(2)` for point, direction
     /// and curvature.
     pub(in crate::geometry) kept: [Option<usize>; 2],
+    /// The vertices that stay.
+    pub(in crate::geometry) locked: &'a [usize],
 }
 
 /// Find a planar curve near another one with so many extrema, the same degree and number of vertices, proved.
@@ -43,10 +45,23 @@ pub(in crate::geometry) fn refit(
     if !(unit > 0.0 && unit.is_finite()) {
         return None;
     }
-    let points: Vec<DVec2> = points.iter().map(|it| (*it - middle) / unit).collect();
+    let placed = |point: DVec2| (point - middle) / unit;
+    let points: Vec<DVec2> = points.into_iter().map(placed).collect();
     let weights = vec![1.0; points.len()];
     let counts = vec![true; points.len()];
-    let ends = ends(polygon, asked.kept, |point| (point - middle) / unit, unit);
+    let ends = ends(polygon, asked.kept, placed, unit);
+    let own = polygon.vertices().iter().map(|it| placed(it.truncate()));
+    let own = PlacedCurve {
+        vertices: own.collect(),
+        places: (0..samples).map(|it| it as f64 / SAMPLES as f64).collect(),
+    };
+    let held = asked.locked.iter();
+    let held = held.filter_map(|vertex| {
+        let point = *own.vertices.get(*vertex)?;
+        let vertex = *vertex;
+        Some(HeldVertex { vertex, point })
+    });
+    let held: Vec<HeldVertex> = held.collect();
     let tables = SlopeTables::new(polygon.degree());
     let task = Task {
         data: Data {
@@ -54,6 +69,7 @@ pub(in crate::geometry) fn refit(
             weights: &weights,
             counts: &counts,
             ends: &ends,
+            held: &held,
             mirror: None,
         },
         degree: polygon.degree(),
@@ -63,6 +79,7 @@ pub(in crate::geometry) fn refit(
         count: Some(polygon.vertices().len()),
         most: polygon.vertices().len(),
         tolerance: None,
+        known: Some(&own),
         tables: &tables,
         progress,
     };
@@ -71,7 +88,13 @@ pub(in crate::geometry) fn refit(
     let best = whole.min_by(|a, b| a.largest.total_cmp(&b.largest))?;
     let vertices = best.start.curve.vertices.iter();
     let vertices = vertices.map(|vertex| (unit * *vertex + middle).extend(0.0));
-    let vertices: Vec<DVec3> = vertices.collect();
+    let mut vertices: Vec<DVec3> = vertices.collect();
+    for vertex in asked.locked {
+        // To the last digit.
+        if let Some(moved) = vertices.get_mut(*vertex) {
+            *moved = polygon.vertex(*vertex);
+        }
+    }
     let degree = polygon.degree();
     FloatPolygon::new(degree, vertices, None, polygon.is_periodic()).ok()
 }
