@@ -57,6 +57,52 @@ impl FloatPolygon {
         best
     }
 
+    /// Find where the curve passes `target` at most `reach` away: the points whose distance is a minimum.
+    ///
+    /// Minima are found among 16 samples a segment, and refined as [`FloatPolygon::nearest`] does.
+    pub fn passes(&self, target: DVec3, reach: f64) -> Vec<Nearest> {
+        let sampler = Sampler::even(self.degree(), STARTS);
+        let mut batch = Batch::default();
+        let mut passes: Vec<Nearest> = Vec::new();
+        for segment in 0..self.segments() {
+            if self.box_distance(segment, target) > reach {
+                continue;
+            }
+            sampler.segment(self, segment, 0, &mut batch);
+            let samples: Vec<f64> = (0..batch.len())
+                .map(|index| batch.jet(index).point.distance(target))
+                .collect();
+            let found = local_minima(&samples);
+            let found =
+                found.map(|index| self.refine(segment, index as f64 / STARTS as f64, target));
+            for pass in found.filter(|it| it.distance <= reach) {
+                // At a knot both segments have it.
+                let is_known = |it: &Nearest| (it.u - pass.u).abs() < 1.0 / STARTS as f64;
+                match passes.last_mut().filter(|it| is_known(it)) {
+                    Some(last) if pass.distance < last.distance => *last = pass,
+                    Some(_) => {}
+                    None => passes.push(pass),
+                }
+            }
+        }
+        passes
+    }
+
+    /// Find the parameter of the point nearest to `target` within half a segment of a parameter, by Newton's method.
+    ///
+    /// A minimum nearby is found if there is one; an open curve ends at its ends, a periodic one has no seam.
+    pub fn parameter_near(&self, target: DVec3, u: f64) -> f64 {
+        let end = self.segments() as f64;
+        if self.is_periodic() {
+            let bracket = [u - 0.5, u + 0.5];
+            let found = refined_parameter(target, u, bracket, |u| self.jet(u));
+            return found.rem_euclid(end);
+        }
+        let u = u.clamp(0.0, end);
+        let bracket = [(u - 0.5).max(0.0), (u + 0.5).min(end)];
+        refined_parameter(target, u, bracket, |u| self.jet(u))
+    }
+
     fn box_distance(&self, segment: usize, target: DVec3) -> f64 {
         let vertices = segment..=segment + self.degree();
         let (low, high) = vector::bounds(vertices.map(|index| self.vertex(index)));

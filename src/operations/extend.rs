@@ -2,6 +2,7 @@
 
 use super::editable::open;
 use super::error::OperationError;
+use super::handle::{Handle, OnCurve, Sets};
 use super::inputs::Inputs;
 use super::operands::Operands;
 use super::operation::Operation;
@@ -40,11 +41,20 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     let shift = if end == End::Start { added } else { 0 };
     let whole = [0.0, curve.polygon.segments() as f64];
     let span = ParameterSpan::shifted(whole, shift as f64);
-    let mut outcome = Outcome::renumbered(input, polygon, vec![span], Deviation::Exact)?;
+    let mut outcome = Outcome::renumbered(input, polygon.clone(), vec![span], Deviation::Exact)?;
     outcome.renumbered = end == End::Start;
     outcome.figures.push(segments);
     outcome
         .annotations
         .push(Annotation::Point(curve.polygon.end_jet(end).point));
+    outcome.handles.push(Handle {
+        at: polygon.end_jet(end).point,
+        label: SEGMENTS.label,
+        sets: Sets::OnCurve(OnCurve::Beyond {
+            segments: SEGMENTS.name,
+            end,
+            from: whole[usize::from(end == End::Finish)],
+        }),
+    });
     Ok(outcome)
 }

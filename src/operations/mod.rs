@@ -45,7 +45,7 @@ pub use amount::Amount;
 pub use atlas::Atlas;
 pub use error::OperationError;
 pub use features::{FeatureComparison, FeatureCounts};
-pub use handle::{Handle, Sets};
+pub use handle::{Handle, OnCurve, Sets};
 pub use inputs::Inputs;
 pub use operands::Operands;
 pub use operation::Operation;

@@ -6,6 +6,7 @@ use super::amount::Amount;
 use super::cutting::{SUBDIVISIONS, without_target};
 use super::editable::open;
 use super::error::OperationError;
+use super::handle::{Handle, OnCurve, Sets};
 use super::inputs::Inputs;
 use super::locks;
 use super::matches::handed_over;
@@ -107,5 +108,10 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     outcome
         .annotations
         .push(Annotation::Point(curve.polygon.point(at)));
+    outcome.handles.push(Handle {
+        at: curve.polygon.point(at),
+        label: AT.label,
+        sets: Sets::OnCurve(OnCurve::Number(AT.name)),
+    });
     Ok(outcome)
 }

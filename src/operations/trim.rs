@@ -6,6 +6,7 @@ use super::amount::Amount;
 use super::cutting::{SUBDIVISIONS, without_target};
 use super::editable::check_editable;
 use super::error::OperationError;
+use super::handle::{Handle, OnCurve, Sets};
 use super::inputs::Inputs;
 use super::operands::Operands;
 use super::operation::Operation;
@@ -14,7 +15,7 @@ use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use crate::document::ParameterSpan;
 use crate::geometry::parameters::{Number, Quantity};
-use crate::geometry::{End, Progress};
+use crate::geometry::{End, FloatPolygon, Progress};
 
 const FROM: Parameter = Parameter {
     name: "from",
@@ -66,12 +67,20 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     let polygon = &curve.polygon;
     let (from, to) = (values.real(&FROM), values.real(&TO));
     let subdivisions = values.whole(&SUBDIVISIONS) as u32;
+    let turn = polygon.segments() as f64;
+    let handles = handles(polygon, [from, to]);
+    if !polygon.is_periodic() && [from, to] == [0.0, turn] {
+        return Ok(Outcome {
+            handles,
+            remarks: vec!["Nothing is cut off: drag an end, or set From u or To u".to_owned()],
+            ..Outcome::unchanged(Deviation::Exact)
+        });
+    }
     let part = polygon.trimmed(from, to, subdivisions)?;
     let deviation = Deviation::of(&part);
     let segments = part.polygon.segments();
     let vertices = Figure::count("vertices", "Vertices", part.polygon.vertices().len());
     let ends = End::BOTH.map(|end| Annotation::Point(part.polygon.end_jet(end).point));
-    let turn = polygon.segments() as f64;
     let scale = segments as f64 / (to - from);
     let span = |old: [f64; 2], turns: f64| ParameterSpan {
         old,
@@ -93,5 +102,23 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     }
     outcome.figures.push(vertices);
     outcome.annotations.extend(ends);
+    outcome.handles = handles;
     Ok(outcome)
+}
+
+/// The ends of the part.
+fn handles(polygon: &FloatPolygon, part: [f64; 2]) -> Vec<Handle> {
+    let turn = polygon.is_periodic().then(|| polygon.segments() as f64);
+    let ends = End::BOTH.into_iter().zip([&FROM, &TO]).zip(part);
+    let handles = ends.map(|((end, parameter), u)| Handle {
+        at: polygon.point(u),
+        label: parameter.label,
+        sets: Sets::OnCurve(OnCurve::PartEnd {
+            parameters: [FROM.name, TO.name],
+            part,
+            end,
+            turn,
+        }),
+    });
+    handles.collect()
 }

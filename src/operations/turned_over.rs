@@ -30,7 +30,7 @@ mod tests {
         let planar = |points: &[(f64, f64)]| FloatPolygon::planar(2, points).expect("a polygon");
         let straight = planar(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (4.0, 0.0)]);
         let bent = planar(&[(0.0, 0.0), (1.0, 0.0), (2.0, 1.0), (2.0, 2.0), (1.0, 3.0)]);
-        let looped = planar(&[(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, -1.0)]);
+        let looped = planar(&[(-2.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, -1.0)]);
         assert_eq!(turned_over(&straight, &bent), None);
         assert_eq!(turned_over(&looped, &straight), None);
         let told = turned_over(&straight, &looped).expect("a remark");

@@ -1,6 +1,7 @@
 //! The canvas: one response for all of it, and every event of the hand in order.
 
 use std::cell::RefCell;
+use std::time::Duration;
 
 use eframe::egui::{
     self, Context, CursorIcon, Event, EventFilter, Id, MouseWheelSource, MouseWheelUnit,
@@ -18,6 +19,9 @@ use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Look, Modifiers};
 /// Points of the wheel that scale by the factor e.
 pub const WHEEL_POINTS: f64 = 220.0;
 
+/// How long the pointer rests before it shows what hides among other things, in seconds.
+const REST: f32 = 0.3;
+
 /// The canvas's own state: how egui's events are to be read.
 #[derive(Debug, Default)]
 pub struct Canvas {
@@ -27,6 +31,8 @@ pub struct Canvas {
     held: Vec<PointerButton>,
     /// Whether the pointer is on the canvas.
     inside: bool,
+    /// Whether the pointer has rested since it moved.
+    rested: bool,
     /// Whether the space bar is held.
     space: bool,
     /// The axis whose key is held.
@@ -68,6 +74,7 @@ impl Canvas {
         let modifiers = context.input(|input| keyboard::modifiers(input.modifiers));
         send(editor, &mut self.modifiers, modifiers, Input::Modifiers);
         self.send_wheel(context, editor);
+        self.notice_rest(context, editor);
         self.notice_covering(context, editor);
     }
 
@@ -134,12 +141,32 @@ impl Canvas {
         }
     }
 
+    /// Tell the editor once that the pointer rests on the canvas with no button held.
+    fn notice_rest(&mut self, context: &Context, editor: &mut Editor) {
+        let (pos, still) = context.input(|input| {
+            let pointer = &input.pointer;
+            (pointer.latest_pos(), pointer.time_since_last_movement())
+        });
+        let Some(pos) = pos.filter(|_| self.inside && self.held.is_empty() && !self.rested) else {
+            return;
+        };
+        if still < REST {
+            context.request_repaint_after(Duration::from_secs_f32(REST - still));
+            return;
+        }
+        self.rested = true;
+        editor.input(Input::Rested {
+            at: self.place(pos),
+        });
+    }
+
     fn moved(&mut self, context: &Context, editor: &mut Editor, pos: Pos2) {
         let inside = self.is_on_top(context, pos);
         // A drag that began elsewhere, such as on a panel's edge, hovers nothing here.
         let foreign = self.held.is_empty() && context.input(|input| input.pointer.any_down());
         if !self.held.is_empty() || (inside && !foreign) {
             self.inside = true;
+            self.rested = false;
             let at = self.place(pos);
             editor.input(Input::Moved { at });
         } else {

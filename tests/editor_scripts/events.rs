@@ -173,6 +173,7 @@ impl Player {
 
     fn press(&mut self, button: Button, at: DVec2) -> Result<(), String> {
         self.move_to(at)?;
+        self.input(Input::Rested { at }, Done::Other)?;
         self.input(Input::Pressed { button, at }, Done::Other)
     }
 

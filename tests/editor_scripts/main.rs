@@ -10,6 +10,7 @@ mod between;
 mod commands;
 mod crowding;
 mod curve_drags;
+mod cutting;
 mod deleting;
 mod documents;
 mod dragging;

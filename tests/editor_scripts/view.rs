@@ -2,7 +2,7 @@
 
 use batten::document::{Curve, Document, Edit};
 use batten::editor::{
-    Button, CombSettings, Command, Editor, HoverScene, Input, Layer, Look, NamedView,
+    Button, CombSettings, Command, Editor, HoverScene, Input, Layer, Look, Mark, NamedView,
 };
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
@@ -108,7 +108,21 @@ fn the_comb_is_scaled_by_the_tip_of_a_tooth() {
     let viewport = *script.editor.view().viewport();
     let before = script.editor.view().comb().scale;
     let longer = tooth[0] + 1.5 * (tooth[1] - tooth[0]);
-    script.drag(viewport.to_screen(tooth[1]), viewport.to_screen(longer));
+    let [from, to] = [tooth[1], longer].map(|at| viewport.to_screen(at));
+    // A press in passing takes no tip, and shows none.
+    let is_named = |script: &mut Script| {
+        let marks = script.scene().marks.iter();
+        marks
+            .filter(|mark| matches!(mark, Mark::Name(_, name) if name == "Comb scale"))
+            .count()
+    };
+    script.drag(from, to);
+    assert_eq!(script.editor.view().comb().scale, before);
+    script.move_to(from);
+    assert_eq!(is_named(&mut script), 0);
+    script.input(Input::Rested { at: from });
+    assert_eq!(is_named(&mut script), 1);
+    script.drag(from, to);
     let after = script.editor.view().comb().scale;
     assert!(
         (after / before - 1.5).abs() < 0.01,
@@ -136,6 +150,7 @@ fn the_hand_reaches_what_was_not_drawn_yet() {
     let [from, to] = [1.0, 1.5].map(|share| viewport.to_screen(foot + share * tooth));
     for input in [
         Input::Moved { at: from },
+        Input::Rested { at: from },
         Input::Pressed { button, at: from },
         Input::Moved { at: to },
         Input::Released { button, at: to },

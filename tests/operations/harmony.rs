@@ -97,6 +97,8 @@ fn a_remark_says_where_features_that_stand_out_are_lost() {
     let polygon = FloatPolygon::planar(12, &vertices).expect("valid");
     let given = [
         ("inflections", list(&[2.0])),
+        // A stretch is not fitted, which would find a curve that keeps them.
+        ("stretch", list(&[0.0, 15.0])),
         ("keep", Value::Choice(3)),
         ("keep-start", Value::Choice(1)),
         ("keep-end", Value::Choice(2)),

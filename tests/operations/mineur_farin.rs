@@ -211,6 +211,7 @@ fn a_handle_sets_the_values_that_bring_its_point_where_it_is_dragged() {
             Sets::Vector { .. } => 1,
             Sets::RatioAndAngle { .. } => 2,
             Sets::LastPoint { .. } => 3,
+            other => panic!("{other:?}"),
         };
         // The leg that the handle belongs to ends there, and those before stay.
         if index == 1 {

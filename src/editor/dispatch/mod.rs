@@ -134,6 +134,10 @@ impl Editor {
         if previewed.is_some_and(is_over_handle) {
             return "Drag the handle to change the values in the panel".into();
         }
+        if previewed.is_some_and(OperationInProgress::takes_clicks_on_curve) {
+            return "Click the curve or drag a handle to set where; Enter applies, Esc cancels"
+                .into();
+        }
         if previewed.is_some_and(OperationInProgress::offers_handles) {
             return "Drag a handle, or change the values in the panel; Enter applies, Esc cancels"
                 .into();

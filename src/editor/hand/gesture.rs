@@ -49,6 +49,8 @@ pub struct GestureMachine {
     space: bool,
     /// Where the pointer is, if it is on the canvas.
     pointer: Option<DVec2>,
+    /// Where it has rested since it came there.
+    rested: Option<DVec2>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -76,6 +78,11 @@ impl GestureMachine {
     /// Where the pointer is, if it is on the canvas.
     pub fn pointer(&self) -> Option<DVec2> {
         self.pointer
+    }
+
+    /// Where the pointer has rested since it came there, before a press.
+    pub fn rested(&self) -> Option<DVec2> {
+        self.rested
     }
 
     /// Whether a drag is going on.
@@ -112,8 +119,13 @@ impl GestureMachine {
             Input::Pressed { button, at } => self.pressed(button, at),
             Input::Released { button, at } => self.released(button, at),
             Input::DoubleClicked { at } => vec![Gesture::DoubleClick(at)],
+            Input::Rested { at } => {
+                self.rested = Some(at);
+                Vec::new()
+            }
             Input::Left => {
                 self.pointer = None;
+                self.rested = None;
                 Vec::new()
             }
             Input::Zoomed { at, factor } => vec![Gesture::Zoom(at, factor)],
@@ -139,6 +151,9 @@ impl GestureMachine {
 
     fn moved(&mut self, at: DVec2) -> Vec<Gesture> {
         self.pointer = Some(at);
+        if self.state == State::Idle {
+            self.rested = self.rested.filter(|it| it.distance(at) < THRESHOLD);
+        }
         match self.state {
             State::Idle | State::Spent => Vec::new(),
             State::Pressed { origin } if origin.distance(at) < THRESHOLD => Vec::new(),

@@ -104,6 +104,7 @@ impl Hand {
             added: self.keeping.added(),
             settings: &self.settings,
             pointer: pointer.map(|at| view.viewport.to_model(at)),
+            rested: self.gestures.rested(),
             typed: self.typed,
         }
     }

@@ -89,6 +89,11 @@ pub enum Input {
         /// Where.
         at: DVec2,
     },
+    /// The pointer has rested here for a moment.
+    Rested {
+        /// Where.
+        at: DVec2,
+    },
     /// A button went down.
     Pressed {
         /// The button.

@@ -1,6 +1,6 @@
 //! The name of the snap, beside the pointer.
 
-use super::snapping::{Carried, snap_to_point};
+use super::snapping::Carried;
 use super::tools::{Context, ToolKind};
 use crate::editor::view::scene::Mark;
 
@@ -18,7 +18,7 @@ pub fn snap_name(tool: ToolKind, context: &Context) -> Option<Mark> {
     let snap = match tool {
         // The measure tool snaps without the switch.
         ToolKind::Measure if context.modifiers.ctrl => None,
-        ToolKind::Measure => snap_to_point(at, context.before, &carried, context.viewport),
+        ToolKind::Measure => context.snap_to_point(at, &carried),
         _ => context.snap(at, &carried),
     }?;
     Some(Mark::Name(context.viewport.flatten(snap.point), snap.name))

@@ -21,10 +21,19 @@ pub struct Carried {
     pub vertices: BTreeSet<VertexId>,
     /// The target of a curve's end.
     pub target: Option<(CurveId, End)>,
-    /// The reference.
-    pub reference: Option<CurveId>,
+    /// The reference, or the curve whose points move.
+    pub item: Option<CurveId>,
     /// Whether it does not lie on the ground, whose grid it only seems to meet where the view is turned.
     pub is_off_ground: bool,
+}
+
+impl Carried {
+    /// Whether a curve or a reference, or a part of it, moves along.
+    pub fn takes_along(&self, id: CurveId) -> bool {
+        let from = self.vertices.range((id, 0)..);
+        let vertex = from.map(|(curve, _)| *curve).next();
+        vertex == Some(id) || self.item == Some(id)
+    }
 }
 
 /// A snap of a dragged place.
@@ -81,7 +90,7 @@ pub fn snap_to_point(
         }
     }
     let references = document.references();
-    let others = references.filter(|(id, it)| it.visible && carried.reference != Some(*id));
+    let others = references.filter(|(id, it)| it.visible && carried.item != Some(*id));
     for (id, reference) in others {
         let ends = || {
             let jets = End::BOTH.map(|end| MatchPlace::End(end).jet(&reference.curve));

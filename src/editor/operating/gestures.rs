@@ -27,7 +27,8 @@ impl Operating<'_> {
         let taken = match gesture {
             Gesture::DragStart(at) => self.begin_handle_drag(at),
             Gesture::Click(at) | Gesture::DoubleClick(at) => {
-                previewed.handle_at(&self.view.viewport, at).is_some()
+                let on_handle = previewed.handle_at(&self.view.viewport, at).is_some();
+                on_handle || self.click_on_curve(at)
             }
             Gesture::Drag(at) => {
                 let given = previewed.dragged_values(at, &self.context());
@@ -71,7 +72,7 @@ impl Operating<'_> {
         }
     }
 
-    fn context(&self) -> Context<'_> {
+    pub(super) fn context(&self) -> Context<'_> {
         let layers = self.hand.layers(self.view.layers);
         self.hand.context(self.workspace, self.view, layers)
     }

@@ -11,7 +11,7 @@ use crate::editor::view::scene::{HoverScene, Mark};
 use crate::editor::view::{REACH, Viewport};
 use crate::geometry::figure;
 use crate::geometry::parameters::Quantity;
-use crate::operations::{Handle, Parameter, Value};
+use crate::operations::{Handle, Parameter, Sets, Value};
 
 /// Shift turns angles by multiples of this, in degrees.
 const ANGLE_STEP: f64 = 15.0;
@@ -64,7 +64,7 @@ impl OperationInProgress {
     }
 
     /// The parameter of this name.
-    fn parameter(&self, name: &str) -> Option<&'static Parameter> {
+    pub(super) fn parameter(&self, name: &str) -> Option<&'static Parameter> {
         let mut parameters = self.operation.parameters.iter();
         parameters.find(|parameter| parameter.name == name)
     }
@@ -112,9 +112,9 @@ impl OperationInProgress {
         pointer: Option<DVec2>,
     ) -> Option<HoverScene> {
         let handle = self.handle_of(viewport, pointer)?;
-        let set = handle.values(handle.at);
-        let lines = set.iter();
-        let lines = lines.filter_map(|(name, value)| Some(told(self.parameter(name)?, value)));
+        let names = handle.parameters().into_iter();
+        let parameters = names.filter_map(|name| self.parameter(name));
+        let lines = parameters.map(|parameter| told(parameter, self.values.get(parameter)));
         Some(HoverScene::Handle {
             at: viewport.flatten(handle.at),
             text: lines.collect::<Vec<_>>().join("\n"),
@@ -134,9 +134,12 @@ impl OperationInProgress {
             let parameter = self.parameter(name);
             parameter.is_some_and(|parameter| parameter.quantity() == Quantity::Angle)
         };
-        let mut values = drag.handle.values(drag.handle.at);
-        let turns = values.iter().any(|(name, _)| is_angle(name));
+        let turns = drag.handle.parameters().into_iter().any(is_angle);
         let mut by = context.viewport.to_model(at) - drag.from;
+        if let Sets::OnCurve(on_curve) = &drag.handle.sets {
+            let place = context.viewport.flatten(drag.handle.at) + by;
+            return Some(self.values_on_curve(&drag.handle, on_curve, place, context));
+        }
         if shift && !turns {
             by = along_axis(by);
         }
@@ -144,7 +147,7 @@ impl OperationInProgress {
         let seen = context.viewport.flatten(moved);
         let snapped = context.snapped_point(seen, &Carried::default());
         let point: DVec3 = snapped.filter(|_| !shift).unwrap_or(moved);
-        values = drag.handle.values(point);
+        let mut values = drag.handle.values(point);
         for (name, value) in &mut values {
             if let Value::Real(angle) = value
                 && shift
@@ -168,7 +171,7 @@ impl OperationInProgress {
         }
     }
 
-    fn handles(&self) -> &[Handle] {
+    pub(super) fn handles(&self) -> &[Handle] {
         match self.is_applied() {
             true => &[],
             false => &self.handles,

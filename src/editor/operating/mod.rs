@@ -5,6 +5,7 @@ mod fitted_points;
 mod gestures;
 mod handles;
 mod in_progress;
+mod on_curve;
 mod operations;
 mod points_on_canvas;
 

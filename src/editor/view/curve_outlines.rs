@@ -270,19 +270,32 @@ impl CurveOutlines {
     }
 
     /// Find the point of the curve that is seen nearest to `target`, if it is at most
-    /// `reach` away: its parameter, place and distance. Sampled chords lead to it and Newton's
-    /// method refines it.
+    /// `reach` away: its parameter, place and distance.
     pub fn nearest(
         &self,
         sampled: SampledCurve<'_>,
         target: DVec2,
         reach: f64,
     ) -> Option<(f64, DVec2, f64)> {
+        let passes = self.passes(sampled, target, reach).into_iter();
+        passes.min_by(|a, b| a.2.total_cmp(&b.2))
+    }
+
+    /// Find where the curve is seen to pass `target` at most `reach` away: parameter, place and distance of the
+    /// nearest point of each run of samples there. Sampled chords lead to it and Newton's method refines it.
+    pub fn passes(
+        &self,
+        sampled: SampledCurve<'_>,
+        target: DVec2,
+        reach: f64,
+    ) -> Vec<(f64, DVec2, f64)> {
         let samples = sampled.samples;
-        let mut best: Option<(f64, f64)> = None;
+        let mut runs: Vec<(f64, f64)> = Vec::new();
+        let mut runs_on = false;
         for (index, (own, block)) in self.blocks.iter().zip(samples.blocks()).enumerate() {
             let Bounds { low, high } = own.bounds;
             if !(target.distance(target.clamp(low, high)) <= reach + block.longest_step) {
+                runs_on = false;
                 continue;
             }
             for piece in samples.block_pieces(index) {
@@ -294,18 +307,26 @@ impl CurveOutlines {
                         ((target - from).dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
                     let share = if share.is_nan() { 0.0 } else { share };
                     let distance = (from + share * chord).distance(target);
-                    if best.is_none_or(|(nearest, _)| distance < nearest) {
-                        let t = (step as f64 + share) / samples.steps() as f64;
-                        best = Some((distance, piece as f64 + t));
+                    let is_near = distance <= reach + 0.5 * chord.length();
+                    let t = (step as f64 + share) / samples.steps() as f64;
+                    let found = (distance, piece as f64 + t);
+                    match runs.last_mut().filter(|_| runs_on) {
+                        Some(run) if is_near && distance < run.0 => *run = found,
+                        Some(_) => {}
+                        None if is_near => runs.push(found),
+                        None => {}
                     }
+                    runs_on = is_near;
                 }
             }
         }
-        let (_, u) = best?;
-        let u = self.refined(sampled, u, target);
-        let point = self.seen(sampled.curve.jet(u).point);
-        let distance = point.distance(target);
-        (distance <= reach).then_some((u, point, distance))
+        let refined = runs.into_iter().map(|(_, start)| {
+            let u = self.refined(sampled, start, target);
+            let point = self.seen(sampled.curve.jet(u).point);
+            (u, point, point.distance(target))
+        });
+        let near = refined.filter(|(_, _, distance)| *distance <= reach);
+        near.collect()
     }
 
     /// Refine the parameter of the point that is seen nearest to `target`.

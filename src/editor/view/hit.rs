@@ -274,7 +274,7 @@ impl<'a> Sight<'a> {
     }
 
     /// The references that can be hit.
-    fn shown_references(&self) -> impl Iterator<Item = CurveId> {
+    pub(super) fn shown_references(&self) -> impl Iterator<Item = CurveId> {
         let references = self.document().references();
         let visible = references.filter(|(_, reference)| reference.visible);
         visible.map(|(id, _)| id)

@@ -16,6 +16,7 @@ mod guiding;
 mod harmony;
 pub(in crate::editor) mod hit;
 mod hovering;
+mod intersections;
 pub(in crate::editor) mod layers;
 mod look;
 mod named_view;

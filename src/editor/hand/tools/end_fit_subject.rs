@@ -173,7 +173,7 @@ impl<'a> Subject<'a> {
         Carried {
             vertices: all.map(|index| (self.id, index)).collect(),
             target: Some((self.id, self.end)),
-            reference: None,
+            item: None,
             is_off_ground: !self.is_planar(),
         }
     }

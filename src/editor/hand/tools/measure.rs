@@ -7,7 +7,7 @@ use super::tool::{Context, Effect, Tool};
 use crate::document::MatchPlace;
 use crate::editor::hand::gesture::{Gesture, is_hasty_click};
 use crate::editor::hand::input::Key;
-use crate::editor::hand::snapping::{Carried, along_axis, snap_to_grid, snap_to_point};
+use crate::editor::hand::snapping::{Carried, along_axis, snap_to_grid};
 use crate::editor::view::scene::{Mark, MeasuredFigure};
 use crate::geometry::{End, significant};
 
@@ -63,7 +63,7 @@ impl MeasureTool {
         if context.modifiers.ctrl {
             return free(view.grounded(at));
         }
-        if let Some(snap) = snap_to_point(at, context.before, &Carried::default(), view) {
+        if let Some(snap) = context.snap_to_point(at, &Carried::default()) {
             return Place::new(snap.point, context);
         }
         let hit = context.hits.curve(view.to_screen(at));

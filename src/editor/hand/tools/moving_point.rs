@@ -49,6 +49,7 @@ impl MovingPoint {
         let from = position(&curve.polygon, point.kind).ok_or_else(String::new)?;
         let planar = curve.polygon.is_planar();
         let carried = Carried {
+            item: Some(id),
             is_off_ground: !planar,
             ..Carried::default()
         };

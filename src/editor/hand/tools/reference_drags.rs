@@ -147,7 +147,7 @@ impl ReferenceDrag {
         let reference = context.document.reference(hit.curve)?;
         reference.check_editable().ok()?;
         let carried = Carried {
-            reference: Some(hit.curve),
+            item: Some(hit.curve),
             ..Carried::default()
         };
         let kind = Kind::Move {

@@ -7,11 +7,11 @@ use glam::{DVec2, DVec3};
 use super::move_drag::MoveDrag;
 use super::moving_point::MovingPoint;
 use super::reference_drags::{Frame, ReferenceDrag, nudged};
-use super::tool::{Context, Cursor, Effect, Tool, move_edits};
+use super::tool::{Context, Cursor, Effect, Tool, move_edits, named_snap};
 use crate::document::{CurveId, Document, EditError};
 use crate::editor::hand::clean_step::stepped;
 use crate::editor::hand::following::{Follow, Followers, Following, PointKind};
-use crate::editor::hand::gesture::Gesture;
+use crate::editor::hand::gesture::{Gesture, THRESHOLD};
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::selection::VertexId;
@@ -211,8 +211,11 @@ impl Tool for SelectTool {
             State::MovingPoint(moving) => moving.marks(context),
             State::Reference(drag) => drag.marks(context),
             State::Idle => {
-                let frame = Frame::of(context);
-                frame.iter().map(Frame::mark).collect()
+                let frame = Frame::of(context).map(|frame| frame.mark());
+                let tooth = context.place();
+                let tooth = tooth.and_then(|place| rested_tooth(place, context));
+                let tip = tooth.map(|[_, tip]| named_snap(tip, "Comb scale".to_owned()));
+                frame.into_iter().chain(tip.into_iter().flatten()).collect()
             }
             _ => Vec::new(),
         }
@@ -227,7 +230,9 @@ impl Tool for SelectTool {
             | State::Scaling { .. } => Cursor::Move,
             State::Idle
                 if place.is_some_and(|place| {
-                    takes_vertex(place, context) || point_of_curve(place, context).is_some()
+                    takes_vertex(place, context)
+                        || point_of_curve(place, context).is_some()
+                        || rested_tooth(place, context).is_some()
                 }) =>
             {
                 Cursor::Move
@@ -281,7 +286,7 @@ impl SelectTool {
             let point = PointKind::OnCurve(hit.u);
             return self.start_moving_point(place, hit.curve, point, context);
         }
-        if let Some([foot, tip]) = context.hits.tooth(place) {
+        if let Some([foot, tip]) = rested_tooth(place, context) {
             let scale = context.hits.view.comb.scale;
             self.state = State::Scaling { foot, tip, scale };
             return Vec::new();
@@ -410,6 +415,14 @@ fn leg_before(place: DVec2, curve: Option<CurveHit>, context: &Context) -> Optio
 
 fn takes_vertex(place: DVec2, context: &Context) -> bool {
     context.hits.vertex(place).is_some() || context.hits.clamped_vertex(place).is_some()
+}
+
+/// The tooth of the comb whose tip a press takes: the pointer has rested there, and shows it.
+fn rested_tooth(place: DVec2, context: &Context) -> Option<[DVec2; 2]> {
+    let rests = context
+        .rested
+        .is_some_and(|at| at.distance(place) < THRESHOLD);
+    rests.then(|| context.hits.tooth(place)).flatten()
 }
 
 /// Whether a press would take a reference, or a handle of its frame.

@@ -51,6 +51,8 @@ pub struct Context<'a> {
     pub settings: &'a ToolSettings,
     /// Where the pointer is, in the view plane.
     pub pointer: Option<DVec2>,
+    /// Where the pointer has rested on the canvas before a press.
+    pub rested: Option<DVec2>,
     /// The point that is being typed, as far as the text is one.
     pub typed: Option<TypedPoint>,
 }
@@ -275,14 +277,33 @@ impl Context<'_> {
 
     /// The snap of a place of the view plane, if snapping is on and something is near.
     pub fn snap(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
-        let snaps = self.snapping != self.modifiers.ctrl;
         let near = || {
-            let point = snapping::snap_to_point(place, self.before, carried, self.viewport);
-            point
+            self.snap_to_point(place, carried)
                 .or_else(|| self.on_reference(place, carried))
                 .or_else(|| self.on_grid(place, carried))
         };
-        snaps.then(near).flatten()
+        self.snaps().then(near).flatten()
+    }
+
+    /// Whether snapping is on: Ctrl turns it round.
+    pub fn snaps(&self) -> bool {
+        self.snapping != self.modifiers.ctrl
+    }
+
+    /// The point or the intersection nearest to a place of the view plane, if one is near.
+    pub fn snap_to_point(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
+        let point = snapping::snap_to_point(place, self.before, carried, self.viewport);
+        let takes = |id| !carried.takes_along(id);
+        let intersection = self
+            .hits
+            .intersection(self.viewport.to_screen(place), takes);
+        let intersection = intersection.map(|point| Snap {
+            point,
+            name: "Intersection".to_owned(),
+        });
+        let distance = |snap: &Snap| self.viewport.flatten(snap.point).distance(place);
+        let both = point.into_iter().chain(intersection);
+        both.min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
     /// The crossing of the grid near a place of the view plane, as far as what is carried along can lie on it.
@@ -302,7 +323,7 @@ impl Context<'_> {
     /// The point of a reference that is seen near a place of the view plane.
     fn on_reference(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
         let place = self.viewport.to_screen(place);
-        let hit = self.hits.reference(place, carried.reference)?;
+        let hit = self.hits.reference(place, carried.item)?;
         Some(Snap {
             point: self.document.shape(hit.curve)?.jet(hit.u).point,
             name: snapping::reference_name(hit.curve, self.document),
