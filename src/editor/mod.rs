@@ -18,9 +18,9 @@ use std::time::Duration;
 pub use commands::{Command, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{
-    Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
-    Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
-    ToolRow, Transformation,
+    Button, Cursor, DrawSettings, DrawWay, EndFitAction, EndFitReport, Entry, EntryError, Follow,
+    Following, Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers,
+    ToolKind, ToolRow, Transformation,
 };
 pub use jobs::file_reading::{ColumnQuestion, FileAnswer};
 pub use jobs::filing::{FileReply, Filing};

@@ -30,7 +30,8 @@ use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{
-    Command, Editor, FileAnswer, Layer, MenuOf, MenuSubject, Refusal, Reply, ToolKind, told,
+    Command, DrawSettings, DrawWay, Editor, FileAnswer, Layer, MenuOf, MenuSubject, Refusal, Reply,
+    ToolKind, told,
 };
 
 use crate::io::{Exporter, formats};
@@ -92,6 +93,11 @@ impl App {
         theme::choose(context, shell.dark);
         if let Some(step) = shell.nudge_step {
             editor.hand_mut().set_nudge_step(step);
+        }
+        if let Some(way) = shell.draw_way.as_deref().and_then(DrawWay::named) {
+            let settings = editor.hand().draw_settings();
+            let settings = DrawSettings { way, ..settings };
+            editor.hand_mut().set_draw_settings(settings);
         }
         for layer in Layer::ALL {
             if let Some(shown) = shell.shows(layer) {
@@ -579,6 +585,7 @@ impl App {
         let mut shell = Shell {
             harmony: self.plots.tab == Tab::Harmony,
             nudge_step: Some(self.editor.hand().nudge_step()),
+            draw_way: Some(self.editor.hand().draw_settings().way.label().to_owned()),
             bands: !self.editor.view().bands_only_plotted,
             ..self.shell.clone()
         };

@@ -11,7 +11,9 @@ use super::number_field::NumberField;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{figures, inspector};
-use crate::editor::{Editor, Entry, EntryError, Input, Key as EditorKey, LegLocks};
+use crate::editor::{
+    DrawSettings, DrawWay, Editor, Entry, EntryError, Input, Key as EditorKey, LegLocks, ToolKind,
+};
 use crate::geometry::MAX_DEGREE;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
@@ -78,7 +80,7 @@ impl CanvasEntry {
                 ui.horizontal(|ui| {
                     self.entry_ui(ui, editor, entry);
                     ui.add_space(2.0 * STEP);
-                    through_ends_ui(ui, editor);
+                    draw_way_ui(ui, editor);
                 });
             });
         });
@@ -216,12 +218,14 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
         .range(1.0..=MAX_DEGREE as f64);
     if let Some(value) = field.typed(ui) {
         let degree = value.round() as usize;
-        match editor.hand().draw_settings() {
-            Some(mut settings) => {
-                settings.degree = Some(degree);
-                editor.hand_mut().set_draw_settings(settings);
-            }
-            None => inspector::set_degree(editor, degree as f64),
+        if editor.hand().tool() == ToolKind::Draw {
+            let settings = DrawSettings {
+                degree: Some(degree),
+                ..editor.hand().draw_settings()
+            };
+            editor.hand_mut().set_draw_settings(settings);
+        } else {
+            inspector::set_degree(editor, degree as f64);
         }
     }
     // What it has so far stands in a place of its own, so that nothing moves.
@@ -259,14 +263,17 @@ fn figure_ui(
     typed.or(locked)
 }
 
-/// Whether the curve that is drawn begins and ends at clicks.
-fn through_ends_ui(ui: &mut Ui, editor: &mut Editor) {
-    let Some(mut settings) = editor.hand().draw_settings() else {
+/// What the draw tool makes of clicks.
+fn draw_way_ui(ui: &mut Ui, editor: &mut Editor) {
+    if editor.hand().tool() != ToolKind::Draw {
         return;
-    };
-    let tooltip = "Add vertices so that the curve starts at the first click and ends at the last";
-    let response = ui.checkbox(&mut settings.through_ends, "Through ends");
-    if response.on_hover_text(tooltip).changed() {
+    }
+    let mut settings = editor.hand().draw_settings();
+    for way in DrawWay::ALL {
+        let response = ui.selectable_value(&mut settings.way, way, way.label());
+        response.on_hover_text(way.tooltip());
+    }
+    if settings != editor.hand().draw_settings() {
         editor.hand_mut().set_draw_settings(settings);
     }
 }

@@ -23,6 +23,8 @@ pub struct Shell {
     pub(super) hidden: Option<Vec<usize>>,
     /// How far an arrow key moves the selection; none is as the editor begins.
     pub(super) nudge_step: Option<f64>,
+    /// The name of what the draw tool makes of clicks; none is as the editor begins.
+    pub(super) draw_way: Option<String>,
     /// Whether bands of rising and falling curvature are shown on the canvas.
     pub(super) bands: bool,
     /// Whether a card offers the tour of the paper: from the first start until it is answered.
@@ -39,6 +41,7 @@ impl Default for Shell {
             layers: BTreeMap::new(),
             hidden: None,
             nudge_step: None,
+            draw_way: None,
             bands: true,
             offers_tour: false,
         }

@@ -1,6 +1,8 @@
 //! Drawing polygons and measuring: hasty clicks, undo, the first curve of a document.
 
-use batten::editor::{CombSettings, Command, Input, Key, Modifiers, NamedView, ToolKind};
+use batten::editor::{
+    CombSettings, Command, DrawWay, Input, Key, Mark, Modifiers, NamedView, ToolKind,
+};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -16,6 +18,7 @@ const CORNERS: [DVec2; 5] = [
 fn drawing() -> Script {
     let mut script = Script::example("arc");
     script.editor.begin_empty();
+    script.draw_by(DrawWay::Vertices);
     script.tool(ToolKind::Draw);
     for corner in CORNERS {
         script.click(corner);
@@ -49,6 +52,7 @@ fn undo_takes_back_the_last_point_before_any_step_of_the_document() {
     let mut script = Script::example("hull");
     script.drag_vertex(2, DVec2::new(10.0, 20.0));
     let before = script.polygon();
+    script.draw_by(DrawWay::Vertices);
     script.tool(ToolKind::Draw);
     for corner in CORNERS {
         script.click(corner);
@@ -206,4 +210,102 @@ fn a_key_that_is_held_makes_one_step() {
     script.command(Command::Undo);
     assert_eq!(script.polygon(), before);
     script.modifiers(Modifiers::NONE);
+}
+
+fn way(script: &Script) -> DrawWay {
+    script.editor.hand().draw_settings().way
+}
+
+#[test]
+fn t_changes_the_way_while_drawing_and_it_is_remembered() {
+    assert_eq!(way(&Script::example("arc")), DrawWay::OnClicks);
+    let mut script = drawing();
+    script.draw_by(DrawWay::OnClicks);
+    for expected in [DrawWay::Vertices, DrawWay::ThroughPoints, DrawWay::OnClicks] {
+        script.key(Key::Character('t'));
+        assert_eq!(way(&script), expected);
+    }
+    script.key(Key::Character('t'));
+    script.key(Key::Enter);
+    // Five clicks are five vertices.
+    assert_eq!(script.polygon().vertices().len(), CORNERS.len());
+    script.editor.begin_empty();
+    assert_eq!(way(&script), DrawWay::Vertices);
+}
+
+#[test]
+fn a_curve_through_points_is_shown_while_it_is_drawn() {
+    for (view, closes) in [
+        (NamedView::Xy, false),
+        (NamedView::Xy, true),
+        (NamedView::Yz, false),
+    ] {
+        let mut script = Script::example("arc");
+        script.editor.begin_empty();
+        script.command(Command::View(view));
+        script.tool(ToolKind::Draw);
+        script.key(Key::Character('t'));
+        script.key(Key::Character('t'));
+        let viewport = *script.editor.view().viewport();
+        let mut clicks = Vec::new();
+        for corner in CORNERS {
+            script.click(corner);
+            clicks.push(viewport.to_model(corner));
+        }
+        let at = if closes { CORNERS[0] } else { CORNERS[4] };
+        script.move_to(at);
+        assert!(!script.scene().proposal.curve.is_empty());
+        match closes {
+            true => script.click(at),
+            false => script.key(Key::Enter),
+        }
+        let polygon = script.polygon();
+        assert_eq!(polygon.is_periodic(), closes);
+        assert_eq!(polygon.degree(), 5);
+        for click in clicks {
+            let passes = (0..=400 * polygon.segments()).map(|it| {
+                let point = polygon.point(it as f64 / 400.0);
+                viewport.flatten(point).distance(click)
+            });
+            let nearest = passes.fold(f64::INFINITY, f64::min);
+            assert!(nearest < 1e-3 * polygon.size(), "{nearest}");
+        }
+        assert_eq!(script.steps(), 1);
+    }
+}
+
+#[test]
+fn a_curve_that_makes_a_detour_is_marked() {
+    let detours = |script: &mut Script| {
+        let marks = script.scene().marks.iter();
+        let texts = marks.filter_map(|mark| match mark {
+            Mark::Extreme { text, .. } => Some(text.clone()),
+            _ => None,
+        });
+        texts.filter(|text| text.contains("longer")).count()
+    };
+    let mut script = Script::example("arc");
+    script.editor.begin_empty();
+    script.tool(ToolKind::Draw);
+    let zigzag = [
+        (100.0, 300.0),
+        (600.0, 310.0),
+        (130.0, 330.0),
+        (620.0, 350.0),
+    ];
+    for at in zigzag {
+        script.click(DVec2::from(at));
+    }
+    assert_eq!(detours(&mut script), 0, "only of points that it passes");
+    script.key(Key::Character('t'));
+    script.key(Key::Character('t'));
+    assert_eq!(detours(&mut script), 1);
+    script.key(Key::Enter);
+    assert!(script.message().contains("longer"), "{}", script.message());
+    // Along a gentle bend there is none.
+    script.tool(ToolKind::Draw);
+    for corner in CORNERS {
+        script.click(corner);
+    }
+    assert_eq!(detours(&mut script), 0);
 }

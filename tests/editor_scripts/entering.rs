@@ -2,7 +2,8 @@
 //! at clicks.
 
 use batten::editor::{
-    Button, Command, DrawSettings, EntryError, Input, Key, LegLocks, Modifiers, NamedView, ToolKind,
+    Button, Command, DrawSettings, DrawWay, EntryError, Input, Key, LegLocks, Modifiers, NamedView,
+    ToolKind,
 };
 use batten::geometry::{End, FloatPolygon};
 use glam::{DVec2, DVec3};
@@ -15,6 +16,7 @@ const NEAR: f64 = 1e-12;
 fn empty(tool: ToolKind) -> Script {
     let mut script = Script::example("arc");
     script.editor.begin_empty();
+    script.draw_by(DrawWay::Vertices);
     script.tool(tool);
     script
 }
@@ -351,7 +353,7 @@ fn drawn_through_ends_a_curve_begins_and_ends_at_clicks() {
             script.command(Command::View(view));
             let settings = DrawSettings {
                 degree: Some(degree),
-                through_ends: true,
+                way: DrawWay::OnClicks,
             };
             script.editor.hand_mut().set_draw_settings(settings);
             for text in ["1,2", "@3,1", "@4<-40"] {
@@ -377,7 +379,7 @@ fn drawn_through_ends_a_curve_begins_and_ends_at_clicks() {
             assert_eq!(script.steps(), 1);
             // The next one is drawn in the same way.
             script.tool(ToolKind::Draw);
-            assert_eq!(script.editor.hand().draw_settings(), Some(settings));
+            assert_eq!(script.editor.hand().draw_settings(), settings);
         }
     }
 }

@@ -3,8 +3,9 @@
 use batten::analysis::LevelPlot;
 use batten::document::{CurveId, Edit, Renumbering};
 use batten::editor::{
-    Button, Command, Editor, EndFitAction, EndFitReport, FeatureReport, Input, Key, Look,
-    Modifiers, OperationInProgress, PlotKind, PlotScene, Reply, Scene, ToolKind, told,
+    Button, Command, DrawSettings, DrawWay, Editor, EndFitAction, EndFitReport, FeatureReport,
+    Input, Key, Look, Modifiers, OperationInProgress, PlotKind, PlotScene, Reply, Scene, ToolKind,
+    told,
 };
 use batten::geometry::FloatPolygon;
 use batten::io::examples::EXAMPLES;
@@ -111,6 +112,13 @@ impl Script {
             button: Button::Primary,
             at,
         });
+    }
+
+    /// Choose what the draw tool makes of clicks.
+    pub fn draw_by(&mut self, way: DrawWay) {
+        let settings = self.editor.hand().draw_settings();
+        let settings = DrawSettings { way, ..settings };
+        self.editor.hand_mut().set_draw_settings(settings);
     }
 
     /// Press and release in one place.

@@ -1,6 +1,6 @@
 //! Adding, inserting, deleting, drawing and measuring.
 
-use batten::editor::{Command, Key, ToolKind};
+use batten::editor::{Command, DrawWay, Key, ToolKind};
 use batten::operations::Value;
 use glam::DVec2;
 
@@ -75,6 +75,7 @@ fn drawing_ends_with_enter_and_a_click_on_the_first_vertex_makes_it_periodic() {
     for periodic in [false, true] {
         let mut script = Script::example("arc");
         script.tool(ToolKind::Draw);
+        script.draw_by(DrawWay::Vertices);
         let corners = [
             (100.0, 100.0),
             (300.0, 120.0),

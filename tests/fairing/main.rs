@@ -8,6 +8,7 @@ mod following;
 mod harmonising;
 mod least_change;
 mod through_ends;
+mod through_points;
 
 use batten::geometry::end_correction::{EndDifference, EndTarget};
 use batten::geometry::{End, FloatPolygon};

@@ -37,8 +37,8 @@ fn type_point(window: &mut Window, text: &str) {
 fn drawing() -> Window {
     let mut window = open_window();
     choose(&mut window, &["File", "New"]);
-    // The tool and the first digits come in one frame.
-    type_keys(&mut window, "d1,2");
+    // The tool, its way (all clicks are vertices) and the first digits come in one frame.
+    type_keys(&mut window, "dt1,2");
     window
 }
 
@@ -115,7 +115,7 @@ fn length_angle_and_degree_are_typed_into_their_fields() {
         type_over(&mut window, text);
         press(&mut window, Modifiers::NONE, Key::Enter);
     }
-    click(&mut window, "Through ends");
+    click(&mut window, "On clicks");
     let canvas = window.state().canvas_rect().expect("a canvas");
     let at = canvas.min + vec2(300.0, 120.0);
     for at in [at, at + vec2(100.0, 0.0)] {
@@ -182,6 +182,7 @@ fn the_degree_so_far_and_the_unit_are_told_and_an_empty_enter_leaves() {
     let convert = ["Edit", "Document unit", "Document unit: millimetres"];
     choose(&mut window, &convert);
     press(&mut window, Modifiers::NONE, Key::D);
+    press(&mut window, Modifiers::NONE, Key::T);
     let canvas = window.state().canvas_rect().expect("a canvas");
     for by in [vec2(-200.0, 0.0), vec2(-80.0, -90.0), vec2(60.0, 40.0)] {
         let at = canvas.center() + by;

@@ -65,17 +65,15 @@ impl Hand {
         }
     }
 
-    /// The settings of the draw tool, while it is in use.
-    pub fn draw_settings(&self) -> Option<DrawSettings> {
-        (self.tool() == ToolKind::Draw).then_some(self.settings.draw)
+    /// The settings of the draw tool.
+    pub fn draw_settings(&self) -> DrawSettings {
+        self.settings.draw
     }
 
-    /// Change the settings of the draw tool, while it is in use. The degree is kept within what there is.
+    /// Change the settings of the draw tool. The degree is kept within what there is.
     pub fn set_draw_settings(&mut self, settings: DrawSettings) {
-        if self.tool() == ToolKind::Draw {
-            let degree = settings.degree.map(|degree| degree.clamp(1, MAX_DEGREE));
-            self.settings.draw = DrawSettings { degree, ..settings };
-        }
+        let degree = settings.degree.map(|degree| degree.clamp(1, MAX_DEGREE));
+        self.settings.draw = DrawSettings { degree, ..settings };
     }
 
     /// The degree of the curve that a tool draws, or adds vertices to.

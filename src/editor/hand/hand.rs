@@ -50,10 +50,12 @@ impl Hand {
     /// The steps that arrow keys can have.
     pub const NUDGE_STEPS: RangeInclusive<f64> = 1e-12..=1e12;
 
-    /// Forget the selection and the settings of a document; the tool stays in use.
+    /// Forget the selection and the settings of a document; the tool stays in use, and the way of drawing.
     pub(in crate::editor) fn begin_document(&mut self) {
         self.selection = Selection::default();
+        let way = self.settings.draw.way;
         self.settings = ToolSettings::default();
+        self.settings.draw.way = way;
         self.use_tool(self.tool());
         self.gestures.reset();
     }

@@ -28,5 +28,6 @@ mod refitting;
 pub mod requirement;
 mod slope_signs;
 mod through_ends;
+mod through_points;
 mod unknowns;
 mod walk;

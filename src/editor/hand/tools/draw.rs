@@ -1,7 +1,8 @@
-//! Draw a new float S-polygon, click by click.
+//! Draw a new curve, click by click.
 
 use glam::{DVec2, DVec3};
 
+use super::draw_way::DrawWay;
 use super::tool::{Context, Effect, Entry, Tool};
 use crate::document::{Curve, Edit};
 use crate::editor::hand::gesture::{Gesture, is_hasty_click};
@@ -24,6 +25,15 @@ pub struct DrawTool {
     pressed: Option<DVec2>,
 }
 
+/// A curve through points that is longer than so many times their polyline is marked.
+const LONG: f64 = 1.1;
+
+/// The relative precision of lengths that are compared with that.
+const PRECISION: f64 = 1e-3;
+
+/// The samples of a segment among which the farthest from the polyline is found.
+const SAMPLES: usize = 8;
+
 /// The degree that is wanted.
 pub(in crate::editor) fn drawn_degree(context: &Context) -> usize {
     let active = || context.document.curve(context.selection.active()?);
@@ -31,26 +41,78 @@ pub(in crate::editor) fn drawn_degree(context: &Context) -> usize {
     degree.unwrap_or_else(|| active().map_or(DEGREE, |curve| curve.polygon.degree()))
 }
 
-impl DrawTool {
-    /// The polygon of some vertices: of the degree that is wanted, or the highest that they have.
-    fn polygon(
-        &self,
-        points: Vec<DVec3>,
-        periodic: bool,
-        context: &Context,
-    ) -> Result<FloatPolygon, PolygonError> {
-        if context.settings.draw.through_ends && !periodic {
-            return FloatPolygon::through_ends(drawn_degree(context), &points);
+/// The polygon of some clicks.
+fn polygon(
+    points: &[DVec3],
+    periodic: bool,
+    context: &Context,
+) -> Result<FloatPolygon, PolygonError> {
+    let way = context.settings.draw.way;
+    way.polygon(drawn_degree(context), points, periodic)
+}
+
+/// A curve that is much longer than the polyline of the points that it passes.
+struct Detour {
+    /// By how much, as a share.
+    longer: f64,
+    /// Its point that is farthest from the polyline.
+    at: DVec3,
+}
+
+impl Detour {
+    fn text(&self) -> String {
+        let percent = (100.0 * self.longer).round();
+        format!("{percent} % longer than the polyline of the points: set more points there")
+    }
+
+    fn mark(&self, context: &Context) -> Mark {
+        Mark::Extreme {
+            at: context.viewport.flatten(self.at),
+            text: self.text(),
         }
-        let degree = self.highest_degree(points.len(), context);
-        FloatPolygon::new(degree, points, None, periodic)
     }
+}
 
-    /// The degree that is wanted, or the highest that so many vertices have.
-    fn highest_degree(&self, vertices: usize, context: &Context) -> usize {
-        drawn_degree(context).min(vertices.saturating_sub(1)).max(1)
+/// The detour that a curve through points makes, if it is one.
+fn detour(
+    points: &[DVec3],
+    polygon: &FloatPolygon,
+    periodic: bool,
+    context: &Context,
+) -> Option<Detour> {
+    if context.settings.draw.way != DrawWay::ThroughPoints {
+        return None;
     }
+    let closing = points.first().filter(|_| periodic);
+    let outline: Vec<DVec3> = points.iter().chain(closing).copied().collect();
+    let straight: f64 = outline.windows(2).map(|leg| leg[0].distance(leg[1])).sum();
+    let length = polygon.arc_length(PRECISION);
+    if !(length > LONG * straight) {
+        return None;
+    }
+    let off = |point: &DVec3| {
+        let legs = outline.windows(2).map(|leg| {
+            let along = leg[1] - leg[0];
+            let share = (*point - leg[0]).dot(along) / along.length_squared();
+            let share = if share.is_nan() {
+                0.0
+            } else {
+                share.clamp(0.0, 1.0)
+            };
+            (leg[0] + share * along).distance(*point)
+        });
+        legs.fold(f64::INFINITY, f64::min)
+    };
+    let samples = 0..=SAMPLES * polygon.segments();
+    let samples = samples.map(|sample| polygon.point(sample as f64 / SAMPLES as f64));
+    let at = samples.max_by(|a, b| off(a).total_cmp(&off(b)))?;
+    Some(Detour {
+        longer: length / straight - 1.0,
+        at,
+    })
+}
 
+impl DrawTool {
     /// The vertex that a click at a place of the view plane sets.
     fn vertex_at(&self, at: DVec2, context: &Context) -> DVec3 {
         let free = context.viewport.grounded(self.next(at, context));
@@ -104,25 +166,24 @@ impl DrawTool {
     fn finish(&mut self, periodic: bool, context: &Context) -> Vec<Effect> {
         let points = std::mem::take(&mut self.points);
         let wanted = drawn_degree(context);
-        match self.polygon(points.clone(), periodic, context) {
+        match polygon(&points, periodic, context) {
             Ok(polygon) => {
                 let id = context.document.next_id();
                 let name = context.document.free_name("curve 1");
                 let (count, degree) = (polygon.vertices().len(), polygon.degree());
+                let more = match degree < wanted {
+                    true => ": add vertices to raise it".to_owned(),
+                    false => detour(&points, &polygon, periodic, context)
+                        .map_or_else(String::new, |detour| format!("; {}", detour.text())),
+                };
+                let vertices = counted(count, "vertex", "vertices");
+                let said = format!("{vertices}, degree {degree}{more}");
                 let curve = Curve::new(name, polygon);
                 vec![
                     Effect::Apply("Draw polygon".into(), vec![Edit::Add(Box::new(curve))]),
                     Effect::Select(Vec::new()),
                     Effect::Activate(id),
-                    Effect::Say(format!(
-                        "{}, degree {degree}{}",
-                        counted(count, "vertex", "vertices"),
-                        if degree < wanted {
-                            ": add vertices to raise it"
-                        } else {
-                            ""
-                        }
-                    )),
+                    Effect::Say(said),
                     Effect::Finish,
                 ]
             }
@@ -159,6 +220,13 @@ impl Tool for DrawTool {
                 self.undo();
                 Vec::new()
             }
+            Gesture::Key(Key::Character('t')) => {
+                let way = context.settings.draw.way.next();
+                vec![
+                    context.set(|settings| settings.draw.way = way),
+                    Effect::Say(way.label().to_owned()),
+                ]
+            }
             Gesture::Key(Key::Escape) if self.points.is_empty() => vec![Effect::Finish],
             Gesture::Key(Key::Escape) => {
                 self.points.clear();
@@ -178,16 +246,17 @@ impl Tool for DrawTool {
 
     fn hint(&self, context: &Context) -> String {
         match self.points.len() {
-            0 => "Click to set the first vertex, or type x,y; Esc ends".into(),
-            1 | 2 => "Click the next vertex, or type @dx,dy or @length<angle; Shift snaps to 15°, Backspace removes the last one, Esc starts over"
+            0 => format!(
+                "{}: click to set the first point, or type x,y; T changes the way, Esc ends",
+                context.settings.draw.way.label()
+            ),
+            1 | 2 => "Click the next point, or type @dx,dy or @length<angle; Shift snaps to 15°, Backspace removes the last one, Esc starts over"
                 .into(),
             count => format!(
-                "{}, degree {}: Enter or right click ends; click the first vertex to make it periodic",
-                counted(count, "vertex", "vertices"),
-                match context.settings.draw.through_ends {
-                    true => drawn_degree(context),
-                    false => self.highest_degree(count, context),
-                }
+                "{}, degree {}: Enter or right click ends; click the first point to make it periodic",
+                counted(count, "point", "points"),
+                polygon(&self.points, false, context)
+                    .map_or_else(|_| drawn_degree(context), |polygon| polygon.degree()),
             ),
         }
     }
@@ -199,7 +268,11 @@ impl Tool for DrawTool {
         let leg = leg.map(|(last, vertex)| Mark::Guide([flat(last), flat(vertex)]));
         let vertices = self.points.iter().copied().chain(vertex);
         let vertices = vertices.map(|point| Mark::NewVertex(flat(point)));
-        leg.into_iter().chain(vertices).collect()
+        let detour = self.proposed(context).and_then(|(points, periodic)| {
+            let polygon = polygon(&points, periodic, context).ok()?;
+            Some(detour(&points, &polygon, periodic, context)?.mark(context))
+        });
+        leg.into_iter().chain(vertices).chain(detour).collect()
     }
 
     fn entry(&self, viewport: &Viewport) -> Option<Entry> {
@@ -233,22 +306,27 @@ impl Tool for DrawTool {
     }
 
     fn proposal(&self, context: &Context) -> Option<FloatPolygon> {
+        let (points, periodic) = self.proposed(context)?;
+        polygon(&points, periodic, context).ok()
+    }
+}
+
+impl DrawTool {
+    /// The points with the one that would be set now, and whether that closes the curve.
+    fn proposed(&self, context: &Context) -> Option<(Vec<DVec3>, bool)> {
         let mut points = self.points.clone();
         let closes = context.typed.is_none()
             && context
                 .pointer
                 .is_some_and(|at| self.closes(context.viewport.to_screen(at), context));
         if closes {
-            return self.polygon(points, true, context).ok();
+            return Some((points, true));
         }
         if let (_, Some(vertex)) = self.leg(context)
             && points.last() != Some(&vertex)
         {
             points.push(vertex);
         }
-        if points.len() < 2 {
-            return None;
-        }
-        self.polygon(points, false, context).ok()
+        (points.len() >= 2).then_some((points, false))
     }
 }

@@ -1,6 +1,7 @@
 //! The table of tools, and the tools: state machines from gestures to effects.
 
 mod draw;
+mod draw_way;
 mod end_fit;
 mod end_fit_drags;
 mod end_fit_subject;
@@ -17,6 +18,7 @@ mod transformation;
 mod transformed;
 mod vertices;
 
+pub use draw_way::DrawWay;
 pub use settings::{DrawSettings, ToolSettings};
 pub use tool::{Context, Cursor, Effect, Entry, Tool};
 pub use transform::NOTHING_TO_TRANSFORM;

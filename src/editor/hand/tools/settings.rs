@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::draw_way::DrawWay;
 use super::measured::Measurement;
 use crate::editor::hand::drawing_plane::LegLocks;
 use crate::editor::hand::end_fit::{EndFitSettings, LastAction};
@@ -23,14 +24,13 @@ pub struct ToolSettings {
     pub last_end_fit: Option<LastAction>,
 }
 
-/// How the draw tool makes a curve of vertices: it is kept from one curve to the next.
+/// How the draw tool makes a curve of clicks: it is kept from one curve to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DrawSettings {
     /// The degree; `None` for that of the active curve.
     pub degree: Option<usize>,
-    /// Whether the curve begins and ends where the first and the last click are, by vertices that
-    /// are added to the polygon.
-    pub through_ends: bool,
+    /// What it makes of clicks.
+    pub way: DrawWay,
 }
 
 impl ToolSettings {
