@@ -66,6 +66,15 @@ impl FloatPolygon {
         }
     }
 
+    /// The number of legs at either end whose vertices belong beyond the curve: the means of their knots (Greville
+    /// abscissae) i − (n − 1)/2 lie outside the domain. 0 for a periodic curve.
+    pub fn tail_legs(&self) -> usize {
+        match self.is_periodic() {
+            true => 0,
+            false => (self.degree() - 1) / 2,
+        }
+    }
+
     /// The size of an end: the diagonal of the box around its terminal vertices. What is missing of
     /// an end is relative to it, however long the curve is.
     pub fn end_size(&self, end: End) -> f64 {

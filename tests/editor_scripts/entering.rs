@@ -406,3 +406,30 @@ fn shift_keeps_to_fifteen_degrees_while_it_is_shown() {
         "{degrees:?}"
     );
 }
+
+#[test]
+fn the_view_follows_what_is_typed() {
+    let in_sight = |script: &Script, point: DVec2| {
+        let viewport = script.editor.view().viewport();
+        let at = viewport.to_screen(point);
+        at.cmpge(DVec2::ZERO).all() && at.cmple(viewport.size).all()
+    };
+    // In an empty document the first two points set the size.
+    let mut script = empty(ToolKind::Draw);
+    script.editor.type_entry("5000,7000");
+    assert!(in_sight(&script, DVec2::new(5000.0, 7000.0)));
+    enter(&mut script, "5000,7000");
+    script.editor.type_entry("@300<0");
+    let viewport = *script.editor.view().viewport();
+    let seen = viewport.size.min_element() / viewport.scale;
+    assert!((300.0..3000.0).contains(&seen), "{seen}");
+    enter(&mut script, "@300<0");
+    // From then on the view only widens, before Enter.
+    let before = *script.editor.view().viewport();
+    script.editor.type_entry("@1<0");
+    assert_eq!(*script.editor.view().viewport(), before);
+    script.editor.type_entry("@9000<90");
+    assert!(in_sight(&script, DVec2::new(5300.0, 16000.0)));
+    assert!(in_sight(&script, DVec2::new(5000.0, 7000.0)));
+    assert!(script.editor.view().viewport().scale < before.scale);
+}

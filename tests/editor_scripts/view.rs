@@ -312,3 +312,46 @@ fn only_segments_that_depend_on_a_vertex_are_redone() {
         assert_eq!(analysis.segments_proved(), expected);
     }
 }
+
+#[test]
+fn a_fitted_view_leaves_tails_out_and_draws_them_fainter() {
+    // A fair arc of degree 5 with 20 vertices: two legs at either end lie beyond the curve.
+    let vertices: Vec<(f64, f64)> = (0..20)
+        .map(|i| {
+            let angle = 0.1 * f64::from(i);
+            (30.0 * angle.sin(), -30.0 * angle.cos())
+        })
+        .collect();
+    let polygon = FloatPolygon::planar(5, &vertices).expect("a polygon");
+    let tails = polygon.tail_legs();
+    assert_eq!(tails, 2);
+    let mut script = Script::example("arc");
+    script.set_polygon(polygon.clone());
+    script.editor.look(Look::All);
+    let viewport = *script.editor.view().viewport();
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for vertex in &polygon.vertices()[tails..20 - tails] {
+        let at = viewport.to_screen(vertex.truncate());
+        (low, high) = (low.min(at), high.max(at));
+    }
+    let free = viewport.size - (high - low);
+    assert!(
+        free.min_element() < 150.0,
+        "the curve fills the view: {free}"
+    );
+    // Strengths of legs, the faintest first: those beyond the ends are fewer and fainter.
+    let scene = script.scene();
+    let chains = scene.curves[0].float.chains();
+    let strengths: Vec<(f32, usize)> = chains.map(|(chain, it)| (it, chain.len())).collect();
+    let faint: usize = strengths
+        .iter()
+        .filter(|it| it.0 < 0.7)
+        .map(|it| it.1)
+        .sum();
+    let full: usize = strengths
+        .iter()
+        .filter(|it| it.0 >= 0.7)
+        .map(|it| it.1)
+        .sum();
+    assert!(faint > 0 && faint < full, "{strengths:?}");
+}

@@ -12,6 +12,9 @@ use crate::editor::view::scene::Legs;
 /// Points closer together than this, in screen points, are thinned out.
 const POINT_SPACING: f64 = 7.0;
 
+/// The share of its strength at which a leg beyond the curve's ends is drawn.
+const TAIL: f32 = 0.45;
+
 /// Hold the outlines of a polygon in one orientation, block by block.
 #[derive(Debug, Default)]
 pub struct ChainOutlines {
@@ -49,10 +52,12 @@ impl ChainOutlines {
         SeenChain { chain, eye }
     }
 
-    /// Append the visible legs. Where they crowd they fade; legs with both ends on `covering` are left out.
+    /// Append the visible legs. Where they crowd they fade, and so do so many at either end as `tail` says; legs with
+    /// both ends on `covering` are left out.
     pub fn append_legs(
         &self,
         chain: &VertexChain,
+        tail: usize,
         covering: Option<&SeenChain>,
         view: &ViewBox,
         out: &mut Legs,
@@ -73,7 +78,9 @@ impl ChainOutlines {
                 continue;
             }
             for from in chain.block_vertices(index).take_while(|from| *from < legs) {
-                let strength = density::leg(seen.leg_spacing(from) / view.pixel);
+                let is_tail = from < tail || from + tail >= legs;
+                let share = if is_tail { TAIL } else { 1.0 };
+                let strength = share * density::leg(seen.leg_spacing(from) / view.pixel);
                 let ends = seen.place(from).zip(seen.place(from + 1));
                 if let Some((start, end)) = ends
                     && !(covers(from) && covers(from + 1))

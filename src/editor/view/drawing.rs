@@ -145,7 +145,8 @@ impl View {
         }
         if layers.shows(Layer::Float) {
             let (outlines, chain) = (&outlined.float, analysis.float());
-            outlines.append_legs(chain, None, view, &mut scene.float);
+            let tail = curve.polygon.tail_legs();
+            outlines.append_legs(chain, tail, None, view, &mut scene.float);
             let selection = shown.selection;
             let mark = |index: usize, at: DVec2, size: f32| VertexMark {
                 index,
@@ -190,7 +191,7 @@ impl View {
             let (outlines, chain) = (&outlined.clamped, analysis.clamped());
             let float = outlined.float.seen(analysis.float());
             let covering = layers.shows(Layer::Float).then_some(&float);
-            outlines.append_legs(chain, covering, view, &mut scene.clamped);
+            outlines.append_legs(chain, 0, covering, view, &mut scene.clamped);
             let seen = outlines.seen(chain);
             let reach = curve.polygon.degree();
             let covers = |index| {

@@ -9,6 +9,7 @@ use crate::editor::view::outline::Bounds;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
 use crate::editor::view::viewport::Viewport;
+use crate::geometry::FloatPolygon;
 
 /// The height of the comb after a reset, as a share of the smaller side of the curve's box.
 const COMB_HEIGHT: f64 = 0.35;
@@ -132,6 +133,20 @@ impl View {
         bounds.fold(Bounds::EMPTY, Bounds::united)
     }
 
+    /// The box of a float polygon without its tails, unless it is hardly more than these.
+    fn bounds_without_tails(&self, polygon: &FloatPolygon) -> Bounds {
+        let tail = match polygon.segments() >= polygon.degree() {
+            true => polygon.tail_legs(),
+            false => 0,
+        };
+        let vertices = polygon.vertices();
+        let mut bounds = Bounds::EMPTY;
+        for vertex in vertices.iter().take(vertices.len() - tail).skip(tail) {
+            bounds.add(self.viewport.flatten(*vertex));
+        }
+        bounds
+    }
+
     fn bounds_of(&self, id: CurveId, shown: Shown<'_>) -> Bounds {
         let (layers, scale) = (shown.layers, self.comb.scale);
         let is_active = shown.active() == Some(id);
@@ -144,7 +159,10 @@ impl View {
             bounds = bounds.united(outlined.clamped.bounds());
         }
         if layers.shows(Layer::Float) {
-            let float = outlined.float.bounds();
+            let float = match shown.document().curve(id) {
+                Some(curve) => self.bounds_without_tails(&curve.polygon),
+                None => outlined.float.bounds(),
+            };
             let extent = |bounds: &Bounds| (bounds.high - bounds.low).max_element();
             // The float polygon of a Bézier curve may lie far away: the curve must not become a speck.
             if extent(&float) <= FAR_POLYGON * extent(&bounds) {

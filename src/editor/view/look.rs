@@ -1,6 +1,6 @@
 //! The changes of the view that commands, tools and panels request.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::document::CurveId;
 use crate::editor::view::comb::CombSettings;
@@ -14,6 +14,9 @@ use crate::editor::view::view::View;
 /// How much of a segment is shown around a feature, on either side.
 const SURROUNDINGS: f64 = 0.6;
 
+/// How much room there is around the first points of a drawing, in units of their extent.
+const ROOM: f64 = 1.0;
+
 /// Radians that the view turns by for each screen point of a drag.
 const TURN: f64 = 0.008;
 
@@ -22,6 +25,10 @@ const TURN: f64 = 0.008;
 pub enum Look {
     /// Fit everything into the canvas, and give the comb a legible scale.
     All,
+    /// Fit the first points of a drawing, with room for more.
+    Begin(Vec<DVec3>),
+    /// Zoom out until a point is in sight.
+    Include(DVec3),
     /// Fit the selected vertices, or everything where fewer than two are selected.
     Selection,
     /// Fit everything where one of these new curves is out of sight; fit them alone where they would be a
@@ -50,6 +57,8 @@ impl View {
     pub(in crate::editor) fn look(&mut self, look: Look, shown: Shown<'_>) {
         match look {
             Look::All => self.fit_all(shown),
+            Look::Begin(points) => self.begin_at(&points),
+            Look::Include(point) => self.include(point),
             Look::Selection => self.fit_selection(shown),
             Look::New(curves) => self.bring_into_sight(&curves, shown),
             Look::Comb(comb) => self.set_comb(comb),
@@ -63,6 +72,26 @@ impl View {
             }
             Look::Orbit(_) => {}
             Look::Canvas(size) => self.set_canvas_size(size, shown),
+        }
+    }
+
+    fn begin_at(&mut self, points: &[DVec3]) {
+        let mut bounds = Bounds::EMPTY;
+        for point in points {
+            bounds.add(self.viewport.flatten(*point));
+        }
+        self.viewport = self.viewport.fitted(&bounds.grown(ROOM));
+    }
+
+    fn include(&mut self, point: DVec3) {
+        let seen = self.viewport.view_box();
+        let at = self.viewport.flatten(point);
+        if at.is_finite() && at != at.clamp(seen.low, seen.high) {
+            let mut bounds = Bounds::EMPTY;
+            for corner in [seen.low, seen.high, at] {
+                bounds.add(corner);
+            }
+            self.viewport = self.viewport.fitted(&bounds);
         }
     }
 

@@ -100,17 +100,17 @@ impl Sketch {
             return;
         };
         outlined.update(analysis, orientation);
-        let float = analysis.float();
+        let (float, tail) = (analysis.float(), curve.polygon.tail_legs());
         outlined
             .curve
             .append_curve(analysis.sampled(), view, &mut scene.curve);
         outlined
             .float
-            .append_legs(float, None, view, &mut scene.float);
+            .append_legs(float, tail, None, view, &mut scene.float);
         if clamped {
             let covering = Some(outlined.float.seen(float));
             let (outlines, chain) = (&outlined.clamped, analysis.clamped());
-            outlines.append_legs(chain, covering.as_ref(), view, &mut scene.clamped);
+            outlines.append_legs(chain, 0, covering.as_ref(), view, &mut scene.clamped);
         }
     }
 }

@@ -240,6 +240,10 @@ impl Tool for DrawTool {
         (!self.points.is_empty()).then_some("last point")
     }
 
+    fn drawn(&self) -> &[DVec3] {
+        &self.points
+    }
+
     fn undo(&mut self) {
         self.points.pop();
     }
@@ -250,6 +254,9 @@ impl Tool for DrawTool {
                 "{}: click to set the first point, or type x,y; T changes the way, Esc ends",
                 context.settings.draw.way.label()
             ),
+            1 if context.document.is_empty() => {
+                "Click the next point, or type it: the distance sets the size of the view".into()
+            }
             1 | 2 => "Click the next point, or type @dx,dy or @length<angle; Shift snaps to 15°, Backspace removes the last one, Esc starts over"
                 .into(),
             count => format!(

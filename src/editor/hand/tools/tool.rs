@@ -154,6 +154,11 @@ pub trait Tool: std::fmt::Debug + Send {
         Ok(Vec::new())
     }
 
+    /// The points that an unfinished drawing has so far.
+    fn drawn(&self) -> &[DVec3] {
+        &[]
+    }
+
     /// The leg that is drawn: from the vertex before to the one that would be set now, at what is
     /// typed or at the pointer. The first is missing while there is none, the second while nothing
     /// says where it would be.
