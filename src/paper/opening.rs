@@ -24,7 +24,7 @@ impl PaperPage {
         if let Some(active) = active {
             editor.activate(active);
         }
-        editor.view_mut().compared = compared;
+        editor.execute(Command::Compare(compared))?;
         let (tool, view) = match self {
             Self::Steps => (ToolKind::EndFit, NamedView::Xy),
             Self::Spiral { .. } => (ToolKind::Select, NamedView::Isometric),

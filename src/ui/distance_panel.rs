@@ -15,7 +15,7 @@ pub fn distance_ui(ui: &mut Ui, editor: &mut Editor) {
     widgets::form_row(ui, "Compare with", |ui| {
         plots::compare_choice_ui(ui, editor, "Compare distances with");
     });
-    let Some(compared) = editor.view().compared else {
+    let Some(compared) = editor.sight().compared() else {
         return;
     };
     match editor.sight().distance() {

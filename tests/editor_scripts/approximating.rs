@@ -25,7 +25,7 @@ fn a_reference_that_is_active_is_approximated_and_compared_in_the_plots() {
     script.try_out("approximate").expect("it can run");
     let made = script.editor.active().expect("a curve");
     assert!(before.curve(made).is_none() && made != reference);
-    assert_eq!(script.editor.view().compared, Some(reference));
+    assert_eq!(script.editor.sight().compared(), Some(reference));
     let plots = script.plots();
     let other = plots.compared.as_ref().expect("the reference");
     assert!(!other.series.is_empty());
@@ -103,7 +103,7 @@ fn only_what_follows_a_reference_is_compared_with_the_active_one() {
         let mut script = spiral();
         let reference = script.curve();
         script.try_out(name).expect("it can run");
-        let compared = script.editor.view().compared;
+        let compared = script.editor.sight().compared();
         assert_eq!(compared == Some(reference), is_compared, "{name}");
     }
 }

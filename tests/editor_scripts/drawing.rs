@@ -6,6 +6,7 @@ use batten::editor::{
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
+use super::several::two;
 
 const CORNERS: [DVec2; 5] = [
     DVec2::new(200.0, 500.0),
@@ -308,4 +309,24 @@ fn a_curve_that_makes_a_detour_is_marked() {
         script.click(corner);
     }
     assert_eq!(detours(&mut script), 0);
+}
+
+#[test]
+fn a_new_curve_is_compared_with_nothing() {
+    let (mut script, [arc, other]) = two();
+    script.command(Command::Compare(Some(other)));
+    assert_eq!(script.editor.sight().compared(), Some(other));
+    script.tool(ToolKind::Draw);
+    for corner in CORNERS {
+        script.click(corner);
+    }
+    script.key(Key::Enter);
+    assert_ne!(script.curve(), arc);
+    assert_eq!(script.editor.sight().compared(), None);
+    assert!(script.editor.sight().distance().is_none());
+    // The comparison belongs to the first curve.
+    script.editor.activate(arc);
+    assert_eq!(script.editor.sight().compared(), Some(other));
+    script.editor.activate(other);
+    assert_eq!(script.editor.sight().compared(), None);
 }

@@ -391,12 +391,12 @@ fn both_polygons_make_two_curves_of_which_one_is_active() {
     let made = script.made_curves();
     assert_eq!(made.len(), 2);
     assert_eq!(script.curve(), made[0]);
-    assert_eq!(script.editor.view().compared, Some(made[1]));
+    assert_eq!(script.editor.sight().compared(), Some(made[1]));
     // The other one may be looked at.
     script.editor.activate(made[1]);
     script.set("ratio", Value::Real(1.9)).expect("a ratio");
     assert_eq!(script.curve(), made[1]);
-    assert_eq!(script.editor.view().compared, Some(made[0]));
+    assert_eq!(script.editor.sight().compared(), Some(made[0]));
     script.key(Key::Enter);
     assert_eq!(script.steps(), 1);
     script.command(Command::Undo);

@@ -157,7 +157,7 @@ fn two_curves_are_compared_in_the_same_strips() {
     let ids: Vec<_> = script.editor.document().ids().collect();
     script.editor.activate(ids[1]);
     script.editor.view_mut().plot = Some(STRIPS);
-    script.editor.view_mut().compared = Some(ids[0]);
+    script.command(Command::Compare(Some(ids[0])));
     let plots = script.plots().clone();
     let other = plots.compared.as_ref().expect("another curve");
     assert_eq!(plots.flow.each_ref().map(Vec::len), [11, 10, 10, 9]);

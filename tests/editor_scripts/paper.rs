@@ -40,7 +40,7 @@ fn every_page_opens_its_curves_unmodified() {
         assert!(!script.editor.workspace().is_modified(), "{page:?}");
         assert_eq!(PaperPage::ALL[page.place()], page);
         // A second curve is compared with the first.
-        let compared = script.editor.view().compared;
+        let compared = script.editor.sight().compared();
         let document = script.editor.document();
         let shown = document.len() + document.references().len();
         let compares = shown > 1 && page != PaperPage::Composite;

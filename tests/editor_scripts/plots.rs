@@ -203,7 +203,7 @@ fn a_reference_that_is_typed_is_overlaid_as_one_of_the_document_is() {
         .references()
         .next()
         .map(|(id, _)| id);
-    witness.editor.view_mut().compared = id;
+    witness.command(Command::Compare(id));
     let same = witness.plots().compared.as_ref().expect("the reference");
     assert_eq!(other.series, same.series);
     // Another one takes its place, in every plot.

@@ -336,7 +336,7 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
         .fold(0.0, f64::max);
     for (active, compared) in [(arc, circle), (circle, arc)] {
         script.editor.activate(active);
-        script.editor.view_mut().compared = Some(compared);
+        script.command(Command::Compare(Some(compared)));
         script.editor.refresh();
         let found = *script.editor.sight().distance().expect("a distance");
         assert!((found.largest / largest - 1.0).abs() <= 1e-6, "{found:?}");
@@ -355,7 +355,7 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
     }
     // It follows a drag, and is not marked where one of both is hidden.
     script.editor.activate(arc);
-    script.editor.view_mut().compared = Some(circle);
+    script.command(Command::Compare(Some(circle)));
     script.drag_vertex(3, DVec2::new(0.0, -30.0));
     script.editor.refresh();
     assert!(
@@ -370,7 +370,7 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
     script.command(Command::ToggleVisible);
     let is_mark = |mark: &Mark| matches!(mark, Mark::Extreme { .. });
     assert!(!script.scene().marks.iter().any(is_mark));
-    script.editor.view_mut().compared = None;
+    script.command(Command::Compare(None));
     script.editor.refresh();
     assert!(script.editor.sight().distance().is_none());
 }
@@ -388,7 +388,7 @@ fn a_list_of_points_is_measured_point_by_point() {
         .editor
         .paste_text(&rows.join("\n"))
         .expect("a list of points");
-    script.editor.view_mut().compared = Some(arc);
+    script.command(Command::Compare(Some(arc)));
     script.editor.refresh();
     let found = *script.editor.sight().distance().expect("a distance");
     // What is pasted stands aside: the points are measured where they are.

@@ -78,7 +78,7 @@ fn the_panel_tells_the_proved_verdict_beside_the_atlas() {
     let made = operation.made_curves(editor.document());
     let view = window.state().editor().view();
     assert_eq!(view.plot, Some(PlotKind::CURVATURE));
-    assert_eq!(view.compared, Some(made[1]));
+    assert_eq!(editor.sight().compared(), Some(made[1]));
     let plots = window.state().editor().view().plots();
     assert!(
         plots

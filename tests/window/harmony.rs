@@ -118,7 +118,7 @@ fn strips_are_compared_with_another_curve_that_is_chosen() {
     window.run();
     let shown = window.state().editor().view().plot;
     assert_eq!(shown, Some(PlotKind::Harmony));
-    assert_eq!(window.state().editor().view().compared, other);
+    assert_eq!(window.state().editor().sight().compared(), other);
     assert!(window.state().editor().view().plots().compared.is_some());
     // The other curve stays beside this one in every plot.
     for tab in ["Curvature", "κ level 2"] {

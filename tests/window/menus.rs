@@ -250,13 +250,13 @@ fn the_plots_menu_has_its_own_commands() {
     click(&mut window, "Plot menu");
     pick(&mut window, "Compare with");
     pick(&mut window, &name);
-    assert_eq!(window.state().editor().view().compared, Some(other));
+    assert_eq!(window.state().editor().sight().compared(), Some(other));
     let fold = window.get_by_label("Collapse plots").rect().center();
     let plot = fold + vec2(-400.0, 90.0);
     right_click(&mut window, plot);
     pick(&mut window, "Compare with");
     pick(&mut window, "Compare with nothing");
-    assert_eq!(window.state().editor().view().compared, None);
+    assert_eq!(window.state().editor().sight().compared(), None);
 
     right_click(&mut window, plot);
     pick(&mut window, "Normalise length");

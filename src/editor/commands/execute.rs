@@ -112,7 +112,11 @@ impl Editor {
                     self.look(Look::Around(u));
                 }
             }
-            Command::Compare(other) => self.view.compared = other,
+            Command::Compare(other) => {
+                if let Some(active) = self.active() {
+                    self.view.compare(active, other);
+                }
+            }
             Command::ToggleLayer(layer) => {
                 let shown = self.sight().layers().shows(layer);
                 if matches!(layer, Layer::Float | Layer::Clamped) {

@@ -241,7 +241,7 @@ impl Editor {
         self.filing.column_question = None;
         self.workspace.replace(document, path);
         self.hand.begin_document();
-        self.view.compared = None;
+        self.view.compare_nothing();
         self.document_changed();
         if self.view.placed {
             if self.document().is_empty() {

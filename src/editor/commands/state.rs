@@ -54,7 +54,7 @@ impl Command {
         match self {
             Command::ToggleLayer(layer) => Some(editor.sight().layers().shows(layer)),
             Command::Compare(other) => {
-                let compared = editor.view.compared.filter(|id| can_compare(*id));
+                let compared = editor.sight().compared().filter(|id| can_compare(*id));
                 Some(compared == other)
             }
             Command::ToggleBands => Some(!editor.view.bands_only_plotted),

@@ -543,17 +543,18 @@ impl Operating<'_> {
             }
         };
         let mut others = made.iter().copied().filter(|id| *id != active);
-        let compared = self.view.compared;
+        let compared = self.view.compared(active);
         if compared.is_none_or(|id| !others.clone().any(|other| other == id))
             && let Some(other) = others.next()
         {
-            self.view.compared = Some(other);
+            self.view.compare(active, Some(other));
         }
         if is_first && follows {
             let document = self.workspace.document();
             let reference = was_active.filter(|id| document.reference(*id).is_some());
-            let compared = reference.or(followed).or(self.view.compared);
-            self.view.compared = compared;
+            if let Some(other) = reference.or(followed) {
+                self.view.compare(active, Some(other));
+            }
         }
         // A curve lies where its points are, though its vertices may be far away.
         let is_alone = made.len() == self.workspace.document().curves().count();

@@ -80,7 +80,7 @@ impl View {
             }
             given => {
                 let of_document = given.as_ref().and_then(has).map(|(id, _)| id);
-                let other = of_document.or(self.compared);
+                let other = of_document.or(self.compared(id));
                 let other = other.filter(|other| *other != id)?;
                 Some((Some(other), Item::of(document, other)?))
             }

@@ -1,5 +1,7 @@
 //! The view's state.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use crate::analysis::{AnalysisCache, CurveAnalysis, Item, ReferenceAnalysis};
@@ -54,9 +56,8 @@ pub struct View {
     pub(in crate::editor) scene: Scene,
     /// The kind of the plot; `None` while plots are folded.
     pub plot: Option<PlotKind>,
-    /// The curve or reference that the active one is compared with in every plot. What is not in the document,
-    /// or is active itself, is compared with nothing.
-    pub compared: Option<CurveId>,
+    /// The curve or reference that each one is compared with in every plot; none for those that are new.
+    comparisons: BTreeMap<CurveId, CurveId>,
     /// The part of the active curve that is plotted in detail, between two arc lengths; `None` for all of it.
     pub plot_part: Option<[f64; 2]>,
     pub(in crate::editor) plots: PlotScene,
@@ -85,6 +86,24 @@ pub(in crate::editor) struct Hovered {
 }
 
 impl View {
+    /// The curve or reference that a curve or reference is compared with; it may be no longer in the document.
+    pub fn compared(&self, id: CurveId) -> Option<CurveId> {
+        self.comparisons.get(&id).copied()
+    }
+
+    /// Compare a curve or a reference with another one, or with nothing.
+    pub(in crate::editor) fn compare(&mut self, id: CurveId, other: Option<CurveId>) {
+        match other {
+            Some(other) => self.comparisons.insert(id, other),
+            None => self.comparisons.remove(&id),
+        };
+    }
+
+    /// Forget all comparisons.
+    pub(in crate::editor) fn compare_nothing(&mut self) {
+        self.comparisons.clear();
+    }
+
     /// Do slow work on threads of its own; a thread calls `wake` when it has a result.
     pub(in crate::editor) fn run_in_background(
         &mut self,

@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 
 use crate::document::CurveId;
-use crate::editor::Editor;
+use crate::editor::{Command, Editor, told};
 use crate::ui::widgets;
 
 /// The least and the greatest width of the choice.
@@ -27,13 +27,13 @@ pub fn compare_ui(ui: &mut Ui, editor: &mut Editor) {
 pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
     let width = (ui.available_width() - BESIDE).clamp(WIDTH[0], WIDTH[1]);
     let others = others(editor);
-    let compared = editor.view().compared;
+    let compared = editor.sight().compared();
     ui.add_enabled_ui(!others.is_empty(), |ui| {
         let others = others.into_iter().map(|(id, name)| (Some(id), name));
         let all = [(None, "nothing".to_owned())].into_iter().chain(others);
         let (chosen, list) = widgets::drop_down(ui, name, width, &compared, all);
         if let Some(chosen) = chosen {
-            editor.view_mut().compared = chosen;
+            told(editor.execute(Command::Compare(chosen)));
         }
         let help = "Plot another curve or reference beside this one, and measure their distance";
         list.on_hover_text(help);
