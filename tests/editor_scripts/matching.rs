@@ -1,8 +1,9 @@
 //! Ends that are matched to other curves, and follow them.
 
-use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
-use batten::editor::{Command, Editor, EndFitAction, Key, Look, ToolKind, told};
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace, Reference};
+use batten::editor::{Command, Editor, EndFitAction, Key, Look, Mark, ToolKind, told};
 use batten::geometry::end_correction::{EndDifference, EndTarget};
+use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use batten::geometry::{Continuity, End, FloatPolygon, PolygonKind};
 use batten::operations::Value;
 use glam::{DVec2, DVec3};
@@ -701,4 +702,62 @@ fn vertex_tools_on_a_source_keep_the_matched_place_and_the_locks() {
         script.undo_all();
         assert!(script.editor.document().is_same(&before), "{tool:?}");
     }
+}
+
+/// The names that the canvas shows beside places.
+fn names(script: &mut Script) -> Vec<String> {
+    let marks = script.scene().marks.iter();
+    let names = marks.filter_map(|mark| match mark {
+        Mark::Name(_, name) => Some(name.clone()),
+        _ => None,
+    });
+    names.collect()
+}
+
+#[test]
+fn a_pick_says_beforehand_what_it_takes_and_prefers_curves_to_points() {
+    let (mut script, ids) = script();
+    let source = curve(&script, ids[0]).polygon;
+    let end = source.end_jet(End::Finish).point;
+    // Points on the curve, one of them at its end.
+    let points = vec![source.point(0.5), source.point(1.25), end, end + DVec3::Y];
+    let list = ReferenceForm::Points(PointList::new(points).expect("points"));
+    let list = Reference::new("scan", ReferenceCurve::of(list).expect("a reference"));
+    let add = Edit::AddReference(Box::new(list));
+    script.editor.apply("add", vec![add]).expect("an edit");
+    script.editor.activate(ids[1]);
+    script.check();
+    script.end_fit_action(EndFitAction::Choose(End::Start));
+    script.end_fit_action(EndFitAction::SetContinuity(Continuity::G2));
+    script.end_fit_action(EndFitAction::KeepMatched(false));
+    script.end_fit_action(EndFitAction::PickFromCurve);
+    script.move_to(at(&script, end));
+    assert_eq!(
+        names(&mut script),
+        ["first, end: position, direction, curvature"]
+    );
+    // Away from the curve there are only points, which have no direction.
+    let apart = at(&script, end + DVec3::Y);
+    script.move_to(apart);
+    assert_eq!(
+        names(&mut script),
+        ["scan, end: Points have no direction: pick them with G0"]
+    );
+    let before = script.editor.document().clone();
+    script.click(apart);
+    assert_eq!(
+        script.message(),
+        "Points have no direction: pick them with G0"
+    );
+    assert!(script.editor.document().is_same(&before));
+    script.end_fit_action(EndFitAction::SetContinuity(Continuity::G0));
+    script.click(apart);
+    let target = curve(&script, ids[1]).targets.start.expect("a target");
+    assert_eq!((target.point, target.direction), (end + DVec3::Y, None));
+    script.end_fit_action(EndFitAction::SetContinuity(Continuity::G2));
+    script.end_fit_action(EndFitAction::PickFromCurve);
+    script.click(at(&script, end));
+    let target = curve(&script, ids[1]).targets.start.expect("a target");
+    assert_eq!(target.point, end);
+    assert!(target.curvature.is_some());
 }

@@ -306,14 +306,15 @@ fn above(vector: DVec3, rounding: f64) -> DVec3 {
 }
 
 /// Find the end of another curve seen nearest to a place of the view plane, as something to match
-/// an end of one's own to: so that the tangents continue each other.
+/// an end of one's own to: so that the tangents continue each other. Curves that `takes` refuses do not count.
 pub fn nearest_other_end(
     document: &Document,
     (curve, end): (CurveId, End),
     place: DVec2,
     viewport: &Viewport,
+    takes: impl Fn(CurveId) -> bool,
 ) -> Option<EndMatch> {
-    let ends = other_ends(document, Some(curve));
+    let ends = other_ends(document, Some(curve)).filter(|(source, ..)| takes(*source));
     let near = ends
         .map(|(source, other, jet)| {
             let distance = viewport.flatten(jet.point).distance(place);

@@ -6,14 +6,13 @@ use super::end_fit_drags::{
     drag_body, drag_circle, drag_direction, drag_ring, drag_target, is_near, missing_angle,
 };
 use super::end_fit_subject::{Handle, Subject};
+use super::end_pick::{EndPick, pick_marks};
 use super::tool::{Context, Cursor, Effect, Tool, followers_label, named_snap};
-use crate::document::{Edit, EndMatch, MatchPlace};
-use crate::editor::hand::end_fit::{nearest_other_end, other_ends};
+use crate::document::Edit;
 use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::view::scene::Mark;
-use crate::geometry::Continuity;
 use crate::geometry::end_correction::EndTarget;
 
 /// The end-fit tool's state.
@@ -151,10 +150,7 @@ impl Tool for EndFitTool {
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
         if context.settings.end_fit.picking {
-            let own = context.selection.active();
-            let ends = other_ends(context.document, own)
-                .map(|(_, _, jet)| context.viewport.flatten(jet.point));
-            return ends.map(Mark::Snap).collect();
+            return pick_marks(Subject::now(context).ok().as_ref(), context);
         }
         match &self.state {
             State::Body {
@@ -242,15 +238,15 @@ impl EndFitTool {
     }
 
     fn pick(&self, place: DVec2, subject: &Subject, context: &Context) -> Vec<Effect> {
-        let Some(picked) = picked(place, subject, context) else {
+        let Some(picked) = EndPick::at(place, subject, context) else {
             return vec![Effect::Say(
                 "There is no other curve here: click on one, or near its end".into(),
             )];
         };
-        let matched = EndMatch {
-            continuity: context.settings.end_fit.continuity,
-            ..picked
-        };
+        if let Err(refused) = picked.check(context.document) {
+            return vec![Effect::Say(refused)];
+        }
+        let matched = picked.matched;
         let Some(target) = matched.target(context.document) else {
             return Vec::new();
         };
@@ -327,22 +323,4 @@ impl EndFitTool {
             }
         }
     }
-}
-
-/// The place of another curve that a click picks: an end that is near, or the point that is hit.
-fn picked(place: DVec2, subject: &Subject, context: &Context) -> Option<EndMatch> {
-    let own = (subject.id, subject.end);
-    let at = context.model(place);
-    let end = nearest_other_end(context.document, own, at, context.viewport);
-    end.or_else(|| {
-        let hit = context.hits.curve(place)?;
-        (hit.curve != subject.id).then_some(EndMatch {
-            curve: subject.id,
-            end: subject.end,
-            source: hit.curve,
-            place: MatchPlace::Parameter(hit.u),
-            continuity: Continuity::default(),
-            reversed: false,
-        })
-    })
 }

@@ -5,6 +5,7 @@ mod draw_way;
 mod end_fit;
 mod end_fit_drags;
 mod end_fit_subject;
+mod end_pick;
 mod measure;
 mod measured;
 mod move_drag;
