@@ -253,6 +253,32 @@ impl Editor {
         self.operating().leave_stale();
     }
 
+    /// Select a curve beside the active one, all vertices of both, or take it back.
+    pub fn toggle_curve(&mut self, curve: CurveId) {
+        let selection = &self.hand.selection;
+        let selected = match selection.of_curve(curve).next() {
+            Some(_) => {
+                let others = selection.vertices().filter(|(id, _)| *id != curve);
+                others.collect()
+            }
+            None => {
+                // The active curve goes along, unless some of its vertices are selected.
+                let active = selection.active();
+                let active = active.filter(|id| selection.of_curve(*id).next().is_none());
+                let all = |id: CurveId| {
+                    let found = self.document().curve(id);
+                    let count = found.map_or(0, |it| it.polygon.vertices().len());
+                    (0..count).map(move |vertex| (id, vertex))
+                };
+                let added = active.into_iter().chain([curve]).flat_map(all);
+                selection.vertices().chain(added).collect::<Vec<VertexId>>()
+            }
+        };
+        self.hand.selection.set(selected);
+        self.document_changed();
+        self.operating().leave_stale();
+    }
+
     /// The message to the user, if there is one.
     pub fn message(&self) -> Option<&Message> {
         self.message.as_ref()

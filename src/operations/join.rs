@@ -390,9 +390,15 @@ impl Joining<'_> {
         self.compose(&composite, &mut outcome)?;
         outcome.figures = self.method("bridge").into();
         outcome.figures.extend(figures(&found));
-        outcome.figures.extend(
-            moved.map(|moved| Figure::length("second_move", "Largest move of the second", moved)),
-        );
+        if let Some(moved) = moved {
+            let figure = Figure::length("second_move", "Largest move of the second", moved);
+            outcome.figures.push(figure);
+            outcome.deviation = outcome.deviation.or(Deviation::AtMost(moved));
+            let moved = significant(moved, 3);
+            outcome.remarks.push(format!(
+                "The first curve stays, the second moves by up to {moved}"
+            ));
+        }
         let [left, right] = self.in_order(&first.polygon, &part);
         let length = bridge_length(&found, left, right);
         outcome.figures.push(Figure::length(

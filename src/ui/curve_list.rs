@@ -91,7 +91,10 @@ impl CurveList {
         item.reorder(ui, editor, rect, &response);
         let renames = response.double_clicked();
         if response.clicked() && !renames {
-            editor.activate(item.id);
+            match ui.input(|input| input.modifiers.command) && !item.active {
+                true => editor.toggle_curve(item.id),
+                false => editor.activate(item.id),
+            }
         }
         if response.secondary_clicked() {
             editor.ask_for_menu(MenuOf::Item(item.id));

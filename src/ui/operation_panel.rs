@@ -13,6 +13,7 @@ use super::operation_fields::{OperationFields, Refused};
 use super::operation_report::{ReportView, error_ui, failure, summary_ui};
 use super::theme::STEP;
 use super::widgets::{self, IconButton};
+use crate::document::CurveId;
 use crate::editor::{Editor, OperationInProgress, told};
 use crate::operations::Atlas;
 
@@ -34,6 +35,8 @@ pub struct OperationPanel {
 enum PanelAction {
     /// Change values of parameters.
     Change(FieldEvent<Values>),
+    /// Take another second curve.
+    Second(CurveId),
     Apply,
     /// Stop the search with the best found so far.
     Stop,
@@ -58,6 +61,7 @@ impl OperationPanel {
             if let Some(points) = in_progress.fitted_points() {
                 fitted_points_ui(ui, in_progress, points, &mut whiskers);
             }
+            actions.extend(second_ui(ui, in_progress));
             actions.extend(self.fields_ui(ui, in_progress));
             ui.separator();
             if let Some(atlas) = &atlas {
@@ -93,6 +97,7 @@ impl OperationPanel {
             }
             PanelAction::Change(FieldEvent::Commit) => editor.operating().keep_values(),
             PanelAction::Change(FieldEvent::Abort) => editor.operating().restore_values(),
+            PanelAction::Second(second) => editor.operating().choose_second(second),
             PanelAction::Apply => told(editor.operating().apply()),
             PanelAction::Stop => editor.operating().stop(),
             PanelAction::Leave => editor.operating().leave(),
@@ -164,6 +169,19 @@ impl OperationPanel {
         });
         actions.collect()
     }
+}
+
+/// The choice of the second curve, where the operation takes one.
+fn second_ui(ui: &mut Ui, in_progress: &OperationInProgress) -> Option<PanelAction> {
+    let (others, second) = in_progress.seconds();
+    let second = second?;
+    widgets::caption(ui, "Second curve");
+    let width = ui.available_width();
+    let (chosen, list) = widgets::drop_down(ui, "Second curve", width, &second, others);
+    list.on_hover_text(
+        "The curve that is joined to the active one; a click on the canvas chooses too",
+    );
+    chosen.map(PanelAction::Second)
 }
 
 /// The atlas that the operation offers.

@@ -1,7 +1,7 @@
 //! Two curves that are joined: chosen, tried out, applied and undone.
 
-use batten::document::{Curve, Edit};
-use batten::editor::{Command, Legs, Note};
+use batten::document::{Curve, CurveId, Edit};
+use batten::editor::{Command, Key, Legs, Note};
 use batten::geometry::FloatPolygon;
 use batten::operations::Value;
 use glam::DVec2;
@@ -94,9 +94,6 @@ fn the_ghost_shows_both_curves_as_they_were() {
 fn of_more_curves_those_with_selected_vertices_are_joined() {
     let (mut script, [arc, other]) = two();
     add(&mut script, "third", 40.0);
-    script.editor.activate(arc);
-    let refused = script.try_out("join").expect_err("which one?");
-    assert!(refused.0.contains("two"), "{refused:?}");
     script.editor.select_vertex(arc, 2, false);
     script.editor.select_vertex(other, 2, true);
     let active = script.curve();
@@ -120,8 +117,77 @@ fn of_more_curves_those_with_selected_vertices_are_joined() {
     ] {
         script.editor.apply("edit", vec![edit]).expect("an edit");
         script.editor.activate(arc);
-        let refused = script.editor.input_of(operation("join"));
-        assert!(refused.is_err());
+        // The other one is taken, as long as it can be.
+        let input = script
+            .editor
+            .input_of(operation("join"))
+            .expect("two curves");
+        assert_ne!(input.curves()[1].0, other);
         script.command(Command::Undo);
     }
+}
+
+#[test]
+fn the_second_curve_is_the_nearest_until_another_one_is_clicked_or_selected() {
+    let (mut script, [arc, other]) = two();
+    add(&mut script, "third", 30.0);
+    script.command(Command::FitAll);
+    script.editor.activate(arc);
+    let ids: Vec<CurveId> = script.editor.document().ids().collect();
+    let third = ids[2];
+    let polygon = |id| {
+        script
+            .editor
+            .document()
+            .curve(id)
+            .expect("a curve")
+            .polygon
+            .clone()
+    };
+    let of_third = polygon(third);
+    let before = script.editor.document().clone();
+    let second = |script: &Script| {
+        let operation = script.editor.previewed_operation().expect("an operation");
+        operation.seconds().1
+    };
+    script.try_out("join").expect("an operation");
+    assert_eq!(second(&script), Some(other), "the nearest");
+    // A click on the canvas.
+    let on = |script: &Script, polygon: &FloatPolygon| {
+        let viewport = script.editor.view().viewport();
+        viewport.to_screen(viewport.flatten(polygon.point(1.5)))
+    };
+    let at = on(&script, &of_third);
+    script.click(at);
+    assert_eq!(second(&script), Some(third));
+    assert!(
+        script.editor.document().curve(third).is_none(),
+        "it is joined"
+    );
+    assert!(script.editor.document().curve(other).is_some());
+    script.editor.operating().choose_second(other);
+    assert_eq!(second(&script), Some(other));
+    // A locked one is refused, and nothing changes.
+    script.key(Key::Escape);
+    assert!(script.editor.document().is_same(&before));
+    let lock = Edit::SetLocked {
+        curve: third,
+        locked: true,
+    };
+    script.editor.apply("lock", vec![lock]).expect("an edit");
+    script.try_out("join").expect("an operation");
+    script.click(at);
+    assert_eq!(second(&script), Some(other));
+    assert!(script.message().contains("locked"), "{}", script.message());
+    script.key(Key::Escape);
+    script.command(Command::Undo);
+    // By its row, beside the active one.
+    script.editor.toggle_curve(third);
+    assert_eq!(script.curve(), arc);
+    script.try_out("join").expect("an operation");
+    assert_eq!(second(&script), Some(third));
+    script.key(Key::Escape);
+    script.editor.toggle_curve(third);
+    script.try_out("join").expect("an operation");
+    assert_eq!(second(&script), Some(other));
 }

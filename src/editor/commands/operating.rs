@@ -1,9 +1,10 @@
 //! Starting operations: their inputs, and the previews that they interrupt.
 
-use crate::document::CurveId;
+use crate::document::{Curve, CurveId, Document};
 use crate::editor::Editor;
 use crate::editor::operating::{Operating, OperationInProgress};
 use crate::editor::reply::{Note, Reply};
+use crate::geometry::End;
 use crate::operations::{Inputs, Operands, Operation, OperationError, Value};
 
 impl Editor {
@@ -67,7 +68,8 @@ impl Editor {
         self.tell(reply)
     }
 
-    /// The input of an operation: the active curve or reference, and the selected curves.
+    /// The input of an operation: the active curve or reference, and the selected curves; where a second one is
+    /// needed and none is selected, the nearest.
     ///
     /// # Errors
     /// [`OperationError`] if the operation cannot run on them, whatever its values.
@@ -79,9 +81,30 @@ impl Editor {
         let active = selection.active().filter(fits);
         let others = self.document().ids().filter(|id| Some(*id) != active);
         let others = others.filter(|id| selection.of_curve(*id).next().is_some());
-        let others: Vec<CurveId> = others.collect();
+        let mut others: Vec<CurveId> = others.collect();
+        if operation.inputs == Inputs::Two && others.is_empty() {
+            others.extend(active.and_then(|active| nearest_curve(document, active)));
+        }
         let input = Operands::choose(document, operation.inputs, active, &others)?;
         operation.check(&input)?;
         Ok(input)
     }
+}
+
+/// The visible, unlocked open curve whose ends are nearest to those of another one.
+fn nearest_curve(document: &Document, id: CurveId) -> Option<CurveId> {
+    let own = document.curve(id)?;
+    let ends = |curve: &Curve| End::BOTH.map(|end| curve.polygon.end_jet(end).point);
+    let apart = |curve: &Curve| {
+        let pairs = ends(own).into_iter().flat_map(|one| {
+            let others = ends(curve).into_iter();
+            others.map(move |other| one.distance(other))
+        });
+        pairs.fold(f64::INFINITY, f64::min)
+    };
+    let others = document.curves().filter(|(other, curve)| {
+        *other != id && !curve.polygon.is_periodic() && curve.check_editable().is_ok()
+    });
+    let nearest = others.min_by(|a, b| apart(a.1).total_cmp(&apart(b.1)));
+    nearest.map(|(other, _)| other)
 }

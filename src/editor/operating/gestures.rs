@@ -23,6 +23,15 @@ impl Operating<'_> {
         let Some(previewed) = self.previewed() else {
             return false;
         };
+        if let Gesture::Click(at) = gesture
+            && let (others, Some(second)) = previewed.seconds()
+            && let Some(hit) = self.context().hits.curve(at)
+            && hit.curve != second
+            && others.iter().any(|(id, _)| *id == hit.curve)
+        {
+            self.choose_second(hit.curve);
+            return true;
+        }
         let offers_handles = previewed.offers_handles();
         let taken = match gesture {
             Gesture::DragStart(at) => self.begin_handle_drag(at),

@@ -12,7 +12,8 @@ use crate::editor::view::{Mark, Viewport};
 use crate::editor::workspace::PreviewId;
 use crate::geometry::Progress;
 use crate::operations::{
-    self, FeatureComparison, Handle, Operands, Operation, OperationError, Outcome, Report, Values,
+    self, FeatureComparison, Handle, Inputs, Operands, Operation, OperationError, Outcome, Report,
+    Values,
 };
 
 /// Hold an operation whose values can be changed: it is previewed, or it made the last step.
@@ -168,6 +169,19 @@ impl OperationInProgress {
         self.curve().is_none()
             || self.curve() == active
             || active.is_some_and(|active| self.made_curves(now).contains(&active))
+    }
+
+    /// The curves that can be the second one, with their names, and which one is; none where the operation takes no
+    /// second curve.
+    pub fn seconds(&self) -> (Vec<(CurveId, String)>, Option<CurveId>) {
+        if self.operation.inputs != Inputs::Two {
+            return (Vec::new(), None);
+        }
+        let others = self.input.document().curves();
+        let others = others.filter(|(id, _)| Some(*id) != self.curve());
+        let others = others.map(|(id, curve)| (id, curve.name.clone()));
+        let second = self.input.curves().get(1).map(|(id, _)| *id);
+        (others.collect(), second)
     }
 
     /// The first input curve.

@@ -237,6 +237,28 @@ impl Operating<'_> {
         Ok(())
     }
 
+    /// Let the operation in progress take another second curve, with its present values. Why it cannot run on that
+    /// is told; nothing is changed then.
+    pub fn choose_second(&mut self, second: CurveId) {
+        let refused = self.take_second(second).err();
+        let refused = refused.map(|error| Refusal(error.to_string()));
+        Message::tell_update(self.message, refused);
+    }
+
+    fn take_second(&mut self, second: CurveId) -> Result<(), OperationError> {
+        let Some(current) = self.current_mut() else {
+            return Ok(());
+        };
+        let operation = current.operation;
+        let document = current.input.document();
+        let input = Operands::choose(document, operation.inputs, current.curve(), &[second])?;
+        operation.check(&input)?;
+        current.values = operation.values_with(&input, &current.values, [])?;
+        current.input = input;
+        self.request_run();
+        Ok(())
+    }
+
     /// Begin a change that goes on, such as a drag: all values set from now on are one change, until
     /// [`Operating::keep_values`] or [`Operating::restore_values`]. A change in progress stays.
     pub fn hold_values(&mut self) {
