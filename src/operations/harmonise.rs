@@ -13,11 +13,15 @@ use super::parameter::{ANY, Choice, Kind, Meaning, Parameter};
 use super::time_limit::{TIME_LIMIT, best_so_far, limited, why_ended};
 use super::turned_over::turned_over;
 use super::values::Values;
-use crate::geometry::fairing::harmonising::{Harmonised, Harmony, HarmonyError, Held, harmonise};
+use crate::document::{CurveId, Document};
+use crate::geometry::end_correction::EndTarget;
+use crate::geometry::fairing::harmonising::{
+    Harmonised, Harmony, HarmonyError, Held, follows, harmonise,
+};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{BezierPolygon, FloatPolygon, Progress, counted, rounded_up};
+use crate::geometry::{BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, rounded_up};
 
 /// How far the curve may move without a wish, by its size.
 const MOST_DEVIATION: f64 = 0.05;
@@ -145,13 +149,18 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let curve = editable(input)?;
     let (id, _) = input.curve()?;
     let keep = values.choice(&KEEP, &LEVELS);
-    let end = |parameter| {
+    let chosen = |parameter| {
         let of_its_own = values.choice(parameter, &one_end());
         of_its_own.unwrap_or(keep)
     };
     let stretch = match *values.list(&STRETCH) {
         [from, to] => Some([from, to]),
         _ => None,
+    };
+    let chosen = [chosen(&KEEP_START), chosen(&KEEP_END)];
+    let required = match stretch {
+        Some(_) => chosen.map(|held| (held, None)),
+        None => [0, 1].map(|index| raised(input.document(), id, End::BOTH[index], chosen[index])),
     };
     let asked = |parameter| given_count(values, parameter);
     let locked = locked(curve, values)?;
@@ -161,7 +170,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let most = most.or(Some(MOST_DEVIATION * size));
     let harmony = Harmony {
         stretch,
-        ends: [end(&KEEP_START), end(&KEEP_END)],
+        ends: required.each_ref().map(|(held, _)| *held),
         locked: &locked,
         extrema: asked(&EXTREMA),
         inflections: asked(&INFLECTIONS),
@@ -209,6 +218,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     outcome
         .remarks
         .extend(turned.map(|turned| format!("{turned}: ask for more extrema")));
+    let raised = required.into_iter().filter_map(|(_, remark)| remark);
+    outcome.remarks.extend(raised);
     if found.refitted {
         outcome.remarks.push(
             "Fitted to the curve: the least change of vertices does not do, or moves it too far"
@@ -217,6 +228,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     }
     if found.reached {
         outcome.remarks.extend(remark_on_lost(&found));
+        let lost = follows(&curve.polygon, &progress) == Some(true)
+            && follows(&found.polygon, &progress) == Some(false);
+        outcome.remarks.extend(lost.then(|| {
+            "No result was found whose discrete curvature follows the curve: refine, or allow more extrema"
+                .to_owned()
+        }));
     }
     if let Some(stretch) = stretch {
         let polygons = [&curve.polygon, &found.polygon];
@@ -247,6 +264,37 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     }
     outcome.annotations = stretch_marks(&curve.polygon, stretch);
     Ok(outcome)
+}
+
+/// What an end keeps: what is chosen, and what its target or match requires; says if that is more.
+fn raised(document: &Document, id: CurveId, end: End, chosen: Held) -> (Held, Option<String>) {
+    let target = document.curve(id).and_then(|curve| curve.targets.get(end));
+    let of_target = target.map(|target| match target {
+        EndTarget { slope: Some(_), .. } => Held::Slope,
+        EndTarget {
+            curvature: Some(_), ..
+        } => Held::Curvature,
+        EndTarget {
+            direction: Some(_), ..
+        } => Held::Direction,
+        _ => Held::Position,
+    });
+    let of_match = document.match_of(id, end);
+    let of_match = of_match.map(|it| match it.continuity {
+        Continuity::G0 => Held::Position,
+        Continuity::G1 => Held::Direction,
+        Continuity::G2 => Held::Curvature,
+        Continuity::G3 => Held::Slope,
+    });
+    let required = of_target.max(of_match).filter(|held| *held > chosen);
+    let remark = required.map(|held| {
+        let word = LEVELS.iter().position(|it| *it == held);
+        let words = ["nothing", "position", "direction", "curvature", "slope", "all"];
+        let word = word.map_or("all", |index| words[index]);
+        let from = if of_match >= of_target { "match" } else { "target" };
+        format!("The {} keeps its {word}, as its {from} requires", end.name())
+    });
+    (required.unwrap_or(chosen), remark)
 }
 
 /// The meanings of the options of one end.

@@ -1,6 +1,7 @@
 //! Harmonising, and what can be asked of ends by values.
 
 use batten::document::Edit;
+use batten::geometry::end_correction::EndTarget;
 use batten::geometry::features::{Feature, Features};
 use batten::geometry::{ClampedPolygon, End, FloatPolygon};
 use batten::operations::{Deviation, OperationError, Value};
@@ -406,4 +407,37 @@ fn without_numbers_what_stands_out_is_left() {
         .iter()
         .find(|figure| figure.name == "asked_extrema");
     assert_eq!(asked.map(|figure| &figure.value), Some(&Value::Whole(1)));
+}
+
+#[test]
+fn ends_keep_what_their_targets_require() {
+    let runner = noisy();
+    let curve = runner.id();
+    let jets = End::BOTH.map(|end| runner.polygon().end_jet(end));
+    let target = EndTarget {
+        curvature: Some(jets[0].signed_curvature()),
+        ..EndTarget::keeping(&jets[0])
+    };
+    let set = Edit::SetTarget {
+        curve,
+        end: End::Start,
+        target: Some(target),
+    };
+    let runner = runner.edited(set);
+    let given = [monotone().to_vec(), vec![("keep", Value::Choice(0))]].concat();
+    let (outcome, curves) = runner.done("harmonise", &given);
+    let after = curves[0].polygon.end_jet(End::Start);
+    let size = curves[0].polygon.size();
+    assert!(after.point.distance(jets[0].point) < 1e-9 * size);
+    let off = after.signed_curvature() - jets[0].signed_curvature();
+    assert!(off.abs() * size < 1e-6, "{off}");
+    let remark = "The start keeps its curvature, as its target requires".to_owned();
+    assert!(outcome.remarks.contains(&remark), "{:?}", outcome.remarks);
+    // The other end is as free as was asked.
+    assert!(
+        !outcome
+            .remarks
+            .iter()
+            .any(|it| it.starts_with("The end keeps"))
+    );
 }

@@ -6,7 +6,9 @@ use super::counts::ShapeCounts;
 use super::requirement::Requirement;
 use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::error::PolygonError;
+use crate::geometry::features::Features;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::harmony;
 use crate::geometry::progress::Progress;
 
 /// A curve without some of the features that stand out must be so many times nearer than one with all of them.
@@ -138,6 +140,12 @@ impl Harmonised {
         self.counts.lacking(self.request)
     }
 
+    /// Whether the discrete curvature of the polygon has the extrema and inflections of its curve, in their order;
+    /// `None` if the computation was cancelled.
+    pub fn follows(&self, progress: &Progress) -> Option<bool> {
+        follows(&self.polygon, progress)
+    }
+
     /// Measure how far the curve is from the one that it was.
     pub(super) fn measure(&mut self, polygon: &FloatPolygon, progress: &Progress) {
         let measured = MeasuredDeviation::between(&self.polygon, polygon, progress);
@@ -145,4 +153,12 @@ impl Harmonised {
             self.deviation = self.deviation.min(measured.largest);
         }
     }
+}
+
+/// Whether the discrete curvature of a polygon has the extrema and inflections of its curve, in their order; `None` if
+/// the computation was cancelled.
+pub fn follows(polygon: &FloatPolygon, progress: &Progress) -> Option<bool> {
+    let features = Features::proved(polygon, |_| !progress.is_cancelled())?;
+    let harmony = harmony::Harmony::of(polygon, &features);
+    Some(harmony.curvature.verdict == harmony::Match::Agrees)
 }

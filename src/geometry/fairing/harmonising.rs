@@ -1,5 +1,7 @@
 //! Harmonising: the least change that leaves the requested features. The method is Batten's own.
 
+use std::cmp::Ordering;
+
 use glam::DVec3;
 
 use super::counts::{CountRequest, ShapeCounts, counted, domain, seen, significant};
@@ -11,7 +13,7 @@ use crate::geometry::features::Features;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
-pub use super::harmonised::{Harmonised, Harmony, HarmonyError, Held};
+pub use super::harmonised::{Harmonised, Harmony, HarmonyError, Held, follows};
 
 /// The weight ε at which the search begins.
 const FIRST_CLOSENESS: f64 = 1e3;
@@ -30,6 +32,9 @@ const FOUND: f64 = 1.2;
 
 /// A move of the curve by less than this share of its size is near enough to fit nothing instead.
 const NEAR: f64 = 1e-4;
+
+/// A result whose discrete curvature follows the curve may be so many times as far as one whose does not.
+const HARDLY_FARTHER: f64 = 2.0;
 
 /// The share of the time for the least change where a fit may follow.
 const LEAST_CHANGE: f64 = 0.6;
@@ -69,12 +74,23 @@ pub fn harmonise(
     if !fitted.is_empty() {
         best.measure(polygon, progress);
     }
-    for fitted in fitted {
-        if fitted.rank() < best.rank() {
-            best = fitted;
-        }
-    }
+    let candidates = [vec![best], fitted].concat();
+    let best = chosen(candidates, progress).ok_or(HarmonyError::Cancelled)?;
     Ok(Harmonised { iterations, ..best })
+}
+
+/// Choose the nearest of some results; of those that are hardly farther, one whose discrete curvature follows the curve.
+fn chosen(mut candidates: Vec<Harmonised>, progress: &Progress) -> Option<Harmonised> {
+    candidates.sort_by(|a, b| a.rank().partial_cmp(&b.rank()).unwrap_or(Ordering::Equal));
+    let nearest = candidates.first()?.clone();
+    let (_, price) = nearest.rank();
+    let is_near = |it: &&Harmonised| it.reached && it.rank().1 <= HARDLY_FARTHER * price;
+    if candidates.iter().filter(is_near).count() < 2 {
+        return Some(nearest);
+    }
+    let mut near = candidates.iter().filter(is_near);
+    let following = near.find(|it| it.follows(progress) == Some(true));
+    Some(following.cloned().unwrap_or(nearest))
 }
 
 /// Move vertices as little as possible, as [`harmonise`] does, and fit nothing instead.
