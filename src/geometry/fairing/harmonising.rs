@@ -34,7 +34,7 @@ const FOUND: f64 = 1.2;
 const NEAR: f64 = 1e-4;
 
 /// A result whose discrete curvature follows the curve may be so many times as far as one whose does not.
-const HARDLY_FARTHER: f64 = 2.0;
+const HARDLY_FARTHER: f64 = 1.25;
 
 /// The share of the time for the least change where a fit may follow.
 const LEAST_CHANGE: f64 = 0.6;

@@ -97,7 +97,7 @@ pub(super) struct Task<'a> {
     pub(super) most: usize,
     /// The largest distance of a point.
     pub(super) tolerance: Option<f64>,
-    /// A curve with the number of vertices asked for that is to change little.
+    /// A curve with the number of vertices asked for, from which held ones are taken.
     pub(super) known: Option<&'a PlacedCurve>,
     pub(super) tables: &'a SlopeTables,
     pub(super) progress: &'a Progress,
@@ -359,7 +359,10 @@ impl<'a> Task<'a> {
                 }
             }
         }
-        let own = self.known.filter(|_| self.count == Some(count)).cloned();
+        let own = self
+            .known
+            .filter(|_| self.count == Some(count) && !self.data.held.is_empty())
+            .cloned();
         for start in own
             .into_iter()
             .flat_map(|own| self.starts_at(&problem, own))
