@@ -533,7 +533,7 @@ fn bad_values_and_bad_usage_are_told_apart() {
         ),
         (
             &["harmonise", "a.batten", "b.batten", "--locked", "1,x"],
-            "Also locked: whole numbers, separated by commas are needed",
+            "Also hold vertices: whole numbers, separated by commas are needed",
         ),
         (&[], "Usage"),
     ] {

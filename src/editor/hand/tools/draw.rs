@@ -111,7 +111,7 @@ impl DrawTool {
                 let (count, degree) = (polygon.vertices().len(), polygon.degree());
                 let curve = Curve::new(name, polygon);
                 vec![
-                    Effect::Apply("Draw polygon".into(), vec![Edit::Add(Box::new(curve))]),
+                    Effect::Apply("Draw curve".into(), vec![Edit::Add(Box::new(curve))]),
                     Effect::Select(Vec::new()),
                     Effect::Activate(id),
                     Effect::Say(format!(
