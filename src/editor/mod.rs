@@ -18,9 +18,9 @@ use std::time::Duration;
 pub use commands::{Command, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{
-    Button, Cursor, DrawSettings, EndFitAction, EndFitReport, Entry, EntryError, Follow, Following,
-    Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers, ToolKind,
-    ToolRow, Transformation,
+    Button, Cursor, DrawSettings, EndFitAction, EndFitReport, EndNoise, Entry, EntryError, Follow,
+    Following, Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers,
+    ToolKind, ToolRow, Transformation,
 };
 pub use jobs::file_reading::{ColumnQuestion, FileAnswer};
 pub use jobs::filing::{FileReply, Filing};
@@ -30,12 +30,12 @@ pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};
 pub use view::{
-    Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,
-    EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid, GuideLabel,
-    GuideScene, HoverScene, Layer, LayerRow, LayerSample, Layers, Legs, Look, LossArrow, Mark,
-    MeasuredFigure, NamedView, Orientation, PieceTrend, PlotBand, PlotKind, PlotScene, REACH,
-    Scene, Sight, VertexMark, View, ViewBox, Viewport, Whiskers, grid_steps, ground_grid,
-    view_name,
+    Bounds, ChainOutlines, ClampedMark, CombSettings, CurvatureDisplay, CurveOutlines, CurveScene,
+    DragReadout, EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid,
+    GuideLabel, GuideScene, HoverScene, Layer, LayerRow, LayerSample, Layers, Legs, Look,
+    LossArrow, Mark, MeasuredFigure, NamedView, Orientation, PieceTrend, PlotBand, PlotKind,
+    PlotScene, REACH, Scene, Sight, VertexMark, View, ViewBox, Viewport, Whiskers, grid_steps,
+    ground_grid, view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 

@@ -10,6 +10,7 @@ mod canvas_entry;
 mod cell_entry;
 mod cell_keys;
 mod chains;
+mod chips;
 mod context_menu;
 mod curve_list;
 mod dialogs;
