@@ -109,7 +109,7 @@ fn drawn(
     }
     float.update(analysis.float(), eye);
     let mut legs = Legs::default();
-    float.append_legs(analysis.float(), None, &view, &mut legs);
+    float.append_legs(analysis.float(), 0, None, &view, &mut legs);
     for (chain, strength) in legs.chains() {
         points.extend(chain);
         points.push(DVec2::splat(f64::from(strength)));

@@ -18,9 +18,9 @@ use std::time::Duration;
 pub use commands::{Command, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{
-    Button, Cursor, DrawSettings, DrawWay, EndFitAction, EndFitReport, Entry, EntryError, Follow,
-    Following, Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject, Modifiers,
-    ToolKind, ToolRow, Transformation,
+    Button, Cursor, DrawSettings, DrawWay, EndFitAction, EndFitReport, EndNoise, Entry, EntryError,
+    Follow, Following, Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject,
+    Modifiers, ToolKind, ToolRow, Transformation,
 };
 pub use jobs::file_reading::{ColumnQuestion, FileAnswer};
 pub use jobs::filing::{FileReply, Filing};
@@ -30,12 +30,12 @@ pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};
 pub use view::{
-    Bounds, ChainOutlines, ClampedMark, CombSettings, CurveOutlines, CurveScene, DragReadout,
-    EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid, GuideLabel,
-    GuideScene, HoverScene, Layer, LayerRow, LayerSample, Layers, Legs, Look, LossArrow, Mark,
-    MeasuredFigure, NamedView, Orientation, PieceTrend, PlotBand, PlotKind, PlotScene, REACH,
-    Scene, Sight, VertexMark, View, ViewBox, Viewport, Whiskers, grid_steps, ground_grid,
-    view_name,
+    Bounds, ChainOutlines, ClampedMark, CombSettings, CurvatureDisplay, CurveOutlines, CurveScene,
+    DragReadout, EndFitMarks, FeatureKind, FeatureMark, FeatureReport, FeatureRow, GAP, GroundGrid,
+    GuideLabel, GuideScene, HoverScene, Layer, LayerRow, LayerSample, Layers, Legs, Look,
+    LossArrow, Mark, MeasuredFigure, NamedView, Orientation, PieceTrend, PlotBand, PlotKind,
+    PlotScene, REACH, Scene, Sight, VertexMark, View, ViewBox, Viewport, Whiskers, grid_steps,
+    ground_grid, view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 
@@ -249,32 +249,6 @@ impl Editor {
         } else {
             self.hand.selection.set([(curve, vertex)]);
         }
-        self.document_changed();
-        self.operating().leave_stale();
-    }
-
-    /// Select a curve beside the active one, all vertices of both, or take it back.
-    pub fn toggle_curve(&mut self, curve: CurveId) {
-        let selection = &self.hand.selection;
-        let selected = match selection.of_curve(curve).next() {
-            Some(_) => {
-                let others = selection.vertices().filter(|(id, _)| *id != curve);
-                others.collect()
-            }
-            None => {
-                // The active curve goes along, unless some of its vertices are selected.
-                let active = selection.active();
-                let active = active.filter(|id| selection.of_curve(*id).next().is_none());
-                let all = |id: CurveId| {
-                    let found = self.document().curve(id);
-                    let count = found.map_or(0, |it| it.polygon.vertices().len());
-                    (0..count).map(move |vertex| (id, vertex))
-                };
-                let added = active.into_iter().chain([curve]).flat_map(all);
-                selection.vertices().chain(added).collect::<Vec<VertexId>>()
-            }
-        };
-        self.hand.selection.set(selected);
         self.document_changed();
         self.operating().leave_stale();
     }

@@ -72,6 +72,23 @@ impl Selection {
         }
     }
 
+    /// Select a curve beside the active one, all vertices of both, or take it back.
+    pub fn toggle_curve(&mut self, curve: CurveId, document: &Document) {
+        if self.of_curve(curve).next().is_some() {
+            self.vertices.retain(|(id, _)| *id != curve);
+            return self.follow();
+        }
+        // The active curve goes along, unless some of its vertices are selected.
+        let active = self.active;
+        let active = active.filter(|id| self.of_curve(*id).next().is_none());
+        let all = |id: CurveId| {
+            let found = document.curve(id);
+            let count = found.map_or(0, |it| it.polygon.vertices().len());
+            (0..count).map(move |vertex| (id, vertex))
+        };
+        self.add(active.into_iter().chain([curve]).flat_map(all));
+    }
+
     /// Select no vertex; the active curve stays.
     pub fn clear(&mut self) {
         self.vertices.clear();

@@ -88,6 +88,6 @@ pub use sampler::{BATCH_ORDER, Batch, Sampler};
 pub use segment_expansion::SegmentExpansion;
 pub use spacing::Spacing;
 pub use wording::{
-    SMALL, coordinate, counted, figure, noun, panic_message, rounded_up, significant,
+    SMALL, coordinate, counted, figure, noun, panic_message, radius_of, rounded_up, significant,
     to_resolution, without_negative_zero,
 };

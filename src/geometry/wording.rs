@@ -55,6 +55,16 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// Write the radius of a curvature, 1/|κ|; that of a straight place is ∞.
+pub fn radius_of(curvature: f64, digits: usize) -> String {
+    let radius = 1.0 / curvature.abs();
+    if radius.is_infinite() {
+        "∞".to_owned()
+    } else {
+        significant(radius, digits)
+    }
+}
+
 /// Write a coordinate where a screen point spans `pixel`: to a hundredth of that.
 pub fn coordinate(value: f64, pixel: f64) -> String {
     to_resolution(value, 0.01 * pixel.max(1e-300))
@@ -140,6 +150,12 @@ mod tests {
         ] {
             assert_eq!(rounded_up(bound), shown);
         }
+    }
+
+    #[test]
+    fn radii_have_no_sign_and_straight_places_are_infinite() {
+        let written = [0.001, -0.25, 0.0, -0.0, f64::NAN].map(|k| radius_of(k, 6));
+        assert_eq!(written, ["1000.00", "4.00000", "∞", "∞", "–"]);
     }
 
     #[test]

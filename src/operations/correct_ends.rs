@@ -115,7 +115,7 @@ macro_rules! end_parameters {
             },
             slope: Parameter {
                 name: concat!($name, "-slope"),
-                label: concat!($label, " slope"),
+                label: concat!($label, " curvature slope"),
                 help: concat!(
                     "The slope of the curvature at the ",
                     $name,

@@ -8,7 +8,7 @@ use crate::geometry::{End, MAX_SUBDIVISIONS};
 /// How often segments may be halved to bring a knot to where the curve is cut.
 pub(super) const SUBDIVISIONS: Parameter = Parameter {
     name: "subdivisions",
-    label: "Maximum subdivisions",
+    label: "Refine at most",
     help: "How often segments are halved to put a knot at the cut; only a cut at a knot is exact",
     kind: Kind::whole(0, MAX_SUBDIVISIONS as usize, 0),
 };

@@ -33,7 +33,7 @@ pub(super) fn remarks_on_change(
     let shift = shifts.fold(0.0, f64::max);
     let moved = before.deviation(after)?;
     let size = BezierPolygon::from_float(before).size();
-    let advice = "lock the vertices that are to stay with “Also locked” (--locked)";
+    let advice = "lock the vertices that are to stay with “Also hold vertices” (--locked)";
     if moved > MUCH * asked || moved > (FAR * size).max(2.0 * shift) {
         let [moved, shift] = [moved, shift].map(|length| significant(length, 3));
         remarks.push(format!(

@@ -26,14 +26,14 @@ use crate::geometry::{BezierPolygon, Continuity, End, FloatPolygon, Progress, co
 /// How far the curve may move without a wish, by its size.
 const MOST_DEVIATION: f64 = 0.05;
 
-const STANDING_OUT: Meaning = |_| "those that stand out";
+const STANDING_OUT: Meaning = |_| "prominent ones (automatic)";
 
 const FREE: Choice = Choice::new("free", "Free");
 const POSITION: Choice = Choice::new("position", "Position");
 const DIRECTION: Choice = Choice::new("direction", "Direction");
 const CURVATURE: Choice = Choice::new("curvature", "Curvature");
-const SLOPE: Choice = Choice::new("slope", "Slope");
-const SAME: Choice = Choice::new("same", "Same");
+const SLOPE: Choice = Choice::new("slope", "Curvature slope");
+const SAME: Choice = Choice::new("same", "As above");
 const ALL: Choice = Choice::new("all", "All");
 
 const KEEP: Parameter = Parameter {
@@ -65,14 +65,14 @@ const ONE_END: Kind = Kind::Choice {
 const KEEP_START: Parameter = Parameter {
     name: "keep-start",
     label: "Keep start",
-    help: "What the start keeps, if not the same as the other end",
+    help: "What the start keeps, if not as above",
     kind: ONE_END,
 };
 
 const KEEP_END: Parameter = Parameter {
     name: "keep-end",
     label: "Keep end",
-    help: "What the end keeps, if not the same as the other end",
+    help: "What the end keeps, if not as above",
     kind: ONE_END,
 };
 

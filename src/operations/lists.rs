@@ -10,7 +10,7 @@ use crate::geometry::parameters::Quantity;
 /// Vertices that an operation must not move, beside those that are locked in the document.
 pub(super) const LOCKED: Parameter = Parameter {
     name: "locked",
-    label: "Also locked",
+    label: "Also hold vertices",
     help: "Vertices that stay where they are, beside those that are locked already, counted from 0",
     kind: Kind::List {
         count: 1..=usize::MAX,

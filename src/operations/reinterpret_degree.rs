@@ -31,7 +31,7 @@ const DEGREE: Parameter = degree(
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "reinterpret-degree",
-    label: "Reinterpret degree",
+    label: "Change degree, keep polygon",
     help: "Give the polygon another degree: higher is smoother, lower follows the polygon closer",
     inputs: Inputs::One,
     parameters: &[DEGREE],

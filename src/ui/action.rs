@@ -41,6 +41,8 @@ pub enum Action {
     Rename,
     /// Switch between the dark and the light theme.
     ToggleTheme,
+    /// Show the names of the tools beside their icons.
+    ToggleToolNames,
     /// Show or hide the plots.
     TogglePlots,
     /// Show all of the plot in front again.
@@ -84,6 +86,7 @@ impl Action {
         all.extend(Command::all().into_iter().map(Self::Command));
         all.extend([
             Self::ToggleTheme,
+            Self::ToggleToolNames,
             Self::TogglePlots,
             Self::FitPlot,
             Self::NormaliseLength,
@@ -115,6 +118,7 @@ impl Action {
             Self::Paste => "Paste",
             Self::Rename => "Rename curve",
             Self::ToggleTheme => "Light theme",
+            Self::ToggleToolNames => "Tool names",
             Self::TogglePlots => "Plots",
             Self::FitPlot => "Fit plot",
             Self::NormaliseLength => "Normalise length",
@@ -170,6 +174,7 @@ impl Action {
             Self::Paste => "Add the copied curve or vertices as a new curve",
             Self::Rename => "Rename in the list of curves; a double-click on a row does the same",
             Self::ToggleTheme => "Switch between the dark and the light theme",
+            Self::ToggleToolNames => "Show the names of the tools beside their icons",
             Self::TogglePlots => "Show or hide the plots under the canvas",
             Self::FitPlot => "Show the whole plot again; a double-click does the same",
             Self::NormaliseLength => {
@@ -211,6 +216,7 @@ impl Action {
             Self::OpenExample(_)
             | Self::Reload
             | Self::NormaliseLength
+            | Self::ToggleToolNames
             | Self::NudgeStep
             | Self::Paper
             | Self::Manual
@@ -287,6 +293,7 @@ impl Action {
             Self::Command(command) => command.is_checked(editor),
             Self::ToggleTheme => Some(!shell.dark),
             Self::TogglePlots => Some(shell.plots),
+            Self::ToggleToolNames => Some(shell.tool_names),
             Self::NormaliseLength => Some(shell.normalised),
             _ => None,
         }

@@ -30,8 +30,8 @@ use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{
-    Command, DrawSettings, DrawWay, Editor, FileAnswer, Layer, MenuOf, MenuSubject, Refusal, Reply,
-    ToolKind, told,
+    Command, CurvatureDisplay, DrawSettings, DrawWay, Editor, FileAnswer, Layer, MenuOf,
+    MenuSubject, Refusal, Reply, ToolKind, told,
 };
 
 use crate::io::{Exporter, formats};
@@ -105,6 +105,8 @@ impl App {
             }
         }
         editor.view_mut().bands_only_plotted = !shell.bands;
+        let display = CurvatureDisplay::of_name(&shell.curvature).unwrap_or_default();
+        editor.view_mut().curvature_display = display;
         let mut plots = Plots::default();
         if shell.harmony {
             plots.tab = Tab::Harmony;
@@ -263,8 +265,9 @@ impl App {
         });
         help::mark(ui, status.response.rect, Topic::StatusBar);
         let rail = Panel::left("tools").frame(frame(4, 4)).resizable(false);
-        let rail = rail.exact_size(tool_rail::WIDTH).show(ui, |ui| {
-            tool_rail_ui(ui, &self.editor, &mut self.actions);
+        let names = self.shell.tool_names;
+        let rail = rail.exact_size(tool_rail::width(names)).show(ui, |ui| {
+            tool_rail_ui(ui, &self.editor, names, &mut self.actions);
         });
         help::mark(ui, rail.response.rect, Topic::Tools);
         if let Some(page) = self.paper.show(ui, &mut self.editor) {
@@ -403,6 +406,7 @@ impl App {
                 self.shell.dark = !self.shell.dark;
                 theme::choose(context, self.shell.dark);
             }
+            Action::ToggleToolNames => self.shell.tool_names = !self.shell.tool_names,
             Action::TogglePlots => self.shell.plots = !self.shell.plots,
             Action::FitPlot => self.plots.fit(),
             Action::NormaliseLength => self.shell.normalised = !self.shell.normalised,
@@ -587,6 +591,7 @@ impl App {
             nudge_step: Some(self.editor.hand().nudge_step()),
             draw_way: Some(self.editor.hand().draw_settings().way.label().to_owned()),
             bands: !self.editor.view().bands_only_plotted,
+            curvature: self.editor.view().curvature_display.name().to_owned(),
             ..self.shell.clone()
         };
         shell.keep_layers(self.editor.view().layers);

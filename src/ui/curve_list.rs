@@ -18,6 +18,8 @@ use crate::editor::{Command, Editor, MenuOf, told};
 #[derive(Default)]
 pub struct CurveList {
     renaming: Option<Renaming>,
+    /// Whether only the heading is shown.
+    is_collapsed: bool,
     /// The curve or reference whose row the list scrolled to when it became active.
     in_sight: Option<CurveId>,
 }
@@ -41,9 +43,23 @@ impl CurveList {
         }
     }
 
+    /// The height that the heading and all rows take.
+    pub fn height(&self, ui: &Ui, editor: &Editor) -> f32 {
+        if self.is_collapsed {
+            return ROW;
+        }
+        let document = editor.document();
+        let rows = document.all_ids().count();
+        // The note of an empty list wraps to two lines.
+        ROW + ui.spacing().item_spacing.y + ROW * rows.max(2) as f32
+    }
+
     /// Show the list with its heading.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
-        heading_ui(ui, editor, commands);
+        heading_ui(ui, &mut self.is_collapsed, editor, commands);
+        if self.is_collapsed {
+            return;
+        }
         if editor.document().is_empty() {
             let text = "No curves yet. Draw one with D, or open a file or an example.";
             widgets::note(ui, text);
@@ -92,7 +108,10 @@ impl CurveList {
         let renames = response.double_clicked();
         if response.clicked() && !renames {
             match ui.input(|input| input.modifiers.command) && !item.active {
-                true => editor.toggle_curve(item.id),
+                true => {
+                    let document = editor.document().clone();
+                    editor.hand_mut().toggle_curve(item.id, &document);
+                }
                 false => editor.activate(item.id),
             }
         }
@@ -147,8 +166,21 @@ fn reorder(editor: &mut Editor, curve: CurveId, place: usize) {
     told(editor.apply("Reorder curves", vec![Edit::Reorder { curve, place }]));
 }
 
-fn heading_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
+fn heading_ui(
+    ui: &mut Ui,
+    is_collapsed: &mut bool,
+    editor: &mut Editor,
+    commands: &mut Vec<Action>,
+) {
     ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        let (icon, name) = match *is_collapsed {
+            true => (Icon::ChevronRight, "Expand curve list"),
+            false => (Icon::ChevronDown, "Collapse curve list"),
+        };
+        if IconButton::new(icon, name).show(ui).clicked() {
+            *is_collapsed = !*is_collapsed;
+        }
         ui.strong("Curves");
         widgets::at_right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 0.0;

@@ -4,9 +4,11 @@ use eframe::egui::{Align2, Button, Rect, RichText, Role, Sense, Ui, UiBuilder, W
 use lucide_icons::Icon;
 
 use super::end_fit_target::target_ui;
+use super::figures::angle;
 use super::message::sentence;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{self, ROW, STEP, Tokens};
+use super::widgets::above_noise;
 use super::{document_unit, figures, icons, widgets};
 use crate::editor::{Editor, EndFitAction, EndFitReport, Layer, Refusal, told};
 use crate::geometry::end_correction::EndOverlap;
@@ -18,7 +20,7 @@ use crate::operations::LargestMove;
 const FIELD: f32 = 96.0;
 
 /// The height of the place for the last action's message.
-const OUTCOME: f32 = 11.0 * STEP;
+const OUTCOME: f32 = 15.0 * STEP;
 
 /// The indentation of what belongs to a step.
 const INDENT: f32 = 28.0;
@@ -37,7 +39,7 @@ pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
     // Each end of each curve has fields of its own, so that no text goes to another end.
     let id = (editor.active(), report.end);
     let panel = |ui: &mut Ui| {
-        let end = ends_ui(ui, report.end);
+        let end = ends_ui(ui, report.end).or(both_ui(ui, &report));
         let event = target_ui(ui, &report, pixel);
         if let Some(refusal) = &report.refusal {
             widgets::note(ui, &sentence(refusal));
@@ -48,7 +50,7 @@ pub fn end_fit_panel_ui(ui: &mut Ui, editor: &mut Editor) {
     };
     let room = ui.available_rect_before_wrap();
     // The place for the message is always there, so that nothing moves when one comes.
-    let footer = 2.0 * ROW + 3.0 * STEP + OUTCOME;
+    let footer = ROW + 2.0 * STEP + OUTCOME;
     let (above, below) = room.split_top_bottom_at_y(room.bottom() - footer);
     let event = inside(ui, above, |ui| {
         widgets::scrolling(ui, "end fit", |ui| ui.push_id(id, panel).inner)
@@ -224,65 +226,93 @@ fn difference_ui(ui: &mut Ui, report: &EndFitReport) {
         return;
     };
     let d = report.difference;
+    let noise = report.noise;
     let plain = |value: f64| figures::significant(value, 6);
-    let mut pairs = vec![("Δx", plain(d.x)), ("Δy", plain(d.y))];
+    let coordinate = |value| above_noise(value, noise.length, plain);
+    let mut pairs = vec![("Δx", coordinate(d.x)), ("Δy", coordinate(d.y))];
     if !report.planar {
-        pairs.push(("Δz", plain(d.z)));
+        pairs.push(("Δz", coordinate(d.z)));
     }
-    let length = document_unit::length(ui.ctx(), plain(d.length()));
-    pairs.push(("Length", length));
-    pairs.push(("Angle", figures::angle(report.angle)));
+    let length = |value| document_unit::length(ui.ctx(), plain(value));
+    pairs.push(("Length", above_noise(d.length(), noise.length, length)));
+    pairs.push(("Angle", above_noise(report.angle, noise.angle, angle)));
     if let Some(missing) = report.missing {
         let asked = [
-            ("Δκ", target.curvature.map(|_| plain(missing.curvature))),
+            (
+                "Δκ",
+                target
+                    .curvature
+                    .map(|_| above_noise(missing.curvature, noise.curvature, plain)),
+            ),
             (
                 "Plane",
-                target.normal.map(|_| figures::angle(missing.plane)),
+                target
+                    .normal
+                    .map(|_| above_noise(missing.plane, noise.angle, angle)),
             ),
-            ("Slope", target.slope.map(|_| plain(missing.slope))),
+            (
+                "Δdκ/ds",
+                target
+                    .slope
+                    .map(|_| above_noise(missing.slope, noise.slope, plain)),
+            ),
         ];
         pairs.extend(asked.into_iter().filter_map(|(name, it)| Some((name, it?))));
     }
     widgets::figure_pairs(ui, &pairs);
 }
 
-/// Step 7, which is always in reach: repeat, or correct both ends at once.
+/// Step 7, which is always in reach.
 fn last_step_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     ui.set_max_width(ui.available_width() - ui.spacing().scroll.allocated_width());
-    let is_ready = report.targets > 0 && report.can_move();
-    let repeated = step_ui(ui, 7, "Refine and repeat", report.within, |ui| {
+    step_ui(ui, 7, "Refine and repeat", report.within, |ui| {
         let button = Button::new("Repeat").min_size(vec2(BUTTON, ROW));
         let help = "Repeat steps 2 to 6 on both ends until within the tolerance";
-        let response = ui.add_enabled(is_ready, button).on_hover_text(help);
+        let response = ui.add_enabled(is_ready(report), button).on_hover_text(help);
         response.clicked().then_some(EndFitAction::Repeat)
-    });
+    })
+}
+
+/// The usual correction: both ends at once.
+fn both_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     let width = ui.available_width();
-    let both = ui.add_enabled_ui(is_ready, |ui| {
+    let both = ui.add_enabled_ui(is_ready(report), |ui| {
         ui.add_sized(vec2(width, ROW), Button::new("Both ends at once"))
     });
     let help = "Meet all targets at once, with the smallest moves of vertices";
     let both = both.inner.on_hover_text(help).clicked();
-    repeated.or(both.then_some(EndFitAction::BothAtOnce))
+    both.then_some(EndFitAction::BothAtOnce)
+}
+
+/// Whether there are targets to meet, and vertices that may move.
+fn is_ready(report: &EndFitReport) -> bool {
+    report.targets > 0 && report.can_move()
 }
 
 /// Below step 6: the error that is left, and the tolerance.
 fn repeat_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
-    let none = || "–".to_owned();
     let length = |ui: &Ui, value| document_unit::length(ui.ctx(), figures::significant(value, 4));
+    let none = || ("–".to_owned(), None);
     let largest = report.largest_move.map(|LargestMove { distance, vertex }| {
         format!("{} at vertex {vertex}", length(ui, distance))
     });
-    widgets::figure_row(ui, "Largest move", &largest.unwrap_or_else(none));
-    let (distance, angle) = match report.targets {
+    widgets::figure_row(
+        ui,
+        "Largest move",
+        &largest.unwrap_or_else(|| "–".to_owned()),
+    );
+    let (distance, turn) = match report.targets {
         0 => (none(), none()),
         _ => (
-            length(ui, report.remaining_distance),
-            figures::angle(report.remaining_angle),
+            above_noise(report.remaining_distance, report.noise.length, |it| {
+                length(ui, it)
+            }),
+            above_noise(report.remaining_angle, report.noise.angle, angle),
         ),
     };
     let tooltip = "The error of the end that is farther from its target";
-    widgets::figure_row(ui, "Remaining error, distance", &distance).on_hover_text(tooltip);
-    widgets::figure_row(ui, "Remaining error, angle", &angle).on_hover_text(tooltip);
+    widgets::quiet_row(ui, "Remaining error, distance", &distance).on_hover_text(tooltip);
+    widgets::quiet_row(ui, "Remaining error, angle", &turn).on_hover_text(tooltip);
     widgets::figure_row(ui, "Passes", &report.passes.to_string());
     let tolerance = widgets::form_row(ui, "Tolerance", |ui| {
         let text = figures::significant(report.tolerance, 4);

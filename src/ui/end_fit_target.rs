@@ -6,10 +6,10 @@ use lucide_icons::Icon;
 
 use super::number_field::{FieldEvent, NumberField, vector_row};
 use super::theme::{ROW, STEP, Tokens};
-use super::widgets::{self, IconButton};
+use super::widgets::{self, IconButton, above_noise};
 use super::{figures, icons};
 use crate::document::{MatchPlace, quoted};
-use crate::editor::{EndFitAction, EndFitReport, MatchReport};
+use crate::editor::{EndFitAction, EndFitReport, EndNoise, MatchReport};
 use crate::geometry::Continuity;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::expressions::sin_cos_of_degrees;
@@ -40,8 +40,8 @@ impl Condition {
     fn lock_ui(&self, ui: &mut Ui) -> Option<Event> {
         let mut is_required = self.is_required;
         let is_enabled = is_required || self.require.is_some();
-        let response = ui.add_enabled(is_enabled, Checkbox::new(&mut is_required, "Lock"));
-        let response = response.accessible_name(format!("Lock {}", self.name.to_lowercase()));
+        let response = ui.add_enabled(is_enabled, Checkbox::new(&mut is_required, "Require"));
+        let response = response.accessible_name(format!("Require {}", self.name.to_lowercase()));
         let is_clicked = response.on_hover_text(self.help).clicked();
         let action = if is_required {
             self.require
@@ -226,7 +226,7 @@ fn conditions_ui(ui: &mut Ui, report: &EndFitReport, target: &EndTarget) -> Opti
             .or(event);
     }
     let slope = Condition {
-        name: "Slope",
+        name: "Curvature slope",
         help: "Require a curvature slope dκ/ds at the end",
         is_required: target.slope.is_some(),
         require: required(actual.slope).map(|it| EndFitAction::SetSlope(Some(it))),
@@ -270,7 +270,7 @@ fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
         }
     });
     if let Some(matched) = matched {
-        action = matched_ui(ui, matched).or(action);
+        action = matched_ui(ui, matched, report.noise).or(action);
         if !matched.met {
             let why = match &report.refusal {
                 Some(_) => "Not met: unlock the curve to match it.",
@@ -288,7 +288,7 @@ fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
 }
 
 /// The source of a matched end, and the error of each level.
-fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
+fn matched_ui(ui: &mut Ui, report: &MatchReport, noise: EndNoise) -> Option<EndFitAction> {
     let mut action = None;
     let place = match report.matched.place {
         MatchPlace::End(end) => format!("its {}", end.name()),
@@ -319,10 +319,19 @@ fn matched_ui(ui: &mut Ui, report: &MatchReport) -> Option<EndFitAction> {
     let missing = &report.missing;
     let plain = |value: f64| figures::significant(value, 4);
     let errors = [
-        ("G0 error", plain(missing.vector.length())),
-        ("G1 error", figures::angle(missing.angle)),
-        ("G2 error", plain(missing.curvature)),
-        ("G3 error", plain(missing.slope)),
+        (
+            "G0 error",
+            above_noise(missing.vector.length(), noise.length, plain),
+        ),
+        (
+            "G1 error",
+            above_noise(missing.angle, noise.angle, figures::angle),
+        ),
+        (
+            "G2 error",
+            above_noise(missing.curvature, noise.curvature, plain),
+        ),
+        ("G3 error", above_noise(missing.slope, noise.slope, plain)),
     ];
     widgets::figure_pairs(ui, &errors);
     action

@@ -12,7 +12,9 @@ use super::feature_marks::glyph;
 use super::legend::legend_ui;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::{figures, icons, widgets};
-use crate::editor::{Editor, FeatureKind, FeatureReport, FeatureRow, Look, MenuSubject};
+use crate::editor::{
+    CurvatureDisplay, Editor, FeatureKind, FeatureReport, FeatureRow, Look, MenuSubject,
+};
 use crate::geometry::counted;
 use crate::geometry::features::{Verdict, certain_text};
 
@@ -36,7 +38,8 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
         None => drop(proving_ui(ui, editor)),
     });
     let chosen = editor.view().chosen_feature();
-    let Some((u, button)) = report.and_then(|report| rows_ui(ui, report, chosen)) else {
+    let display = editor.view().curvature_display;
+    let Some((u, button)) = report.and_then(|report| rows_ui(ui, report, chosen, display)) else {
         return;
     };
     if chosen != Some(u) || button == PointerButton::Primary {
@@ -49,7 +52,12 @@ pub fn feature_list_ui(ui: &mut Ui, editor: &mut Editor) {
 }
 
 /// Show the features; returns the parameter of the one that was clicked, and with which button.
-fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<(f64, PointerButton)> {
+fn rows_ui(
+    ui: &mut Ui,
+    report: &FeatureReport,
+    own: Option<f64>,
+    display: CurvatureDisplay,
+) -> Option<(f64, PointerButton)> {
     let area = ScrollArea::vertical()
         .id_salt("features")
         .auto_shrink([false, false]);
@@ -59,7 +67,8 @@ fn rows_ui(ui: &mut Ui, report: &FeatureReport, own: Option<f64>) -> Option<(f64
     area.show_rows(ui, ROW, report.rows.len(), |ui, range| {
         ui.set_max_width(width);
         for row in report.rows.get(range).unwrap_or_default() {
-            let response = row_ui(ui, row, report.sampled, own == Some(row.middle));
+            let states = (report.sampled, own == Some(row.middle));
+            let response = row_ui(ui, row, states, display);
             let buttons = [PointerButton::Secondary, PointerButton::Primary];
             let button = buttons.into_iter().find(|it| response.clicked_by(*it));
             clicked = button.map(|button| (row.middle, button)).or(clicked);
@@ -220,14 +229,24 @@ fn short_name(kind: FeatureKind) -> &'static str {
     }
 }
 
-fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Response {
+fn row_ui(
+    ui: &mut Ui,
+    row: &FeatureRow,
+    (sampled, is_chosen): (bool, bool),
+    display: CurvatureDisplay,
+) -> Response {
     let (rect, response) = widgets::row(ui, Sense::click(), is_chosen);
     let tokens = Tokens::of(ui);
     let at = pos2(rect.left() + 3.0 * STEP, rect.center().y);
     glyph(ui.painter(), at, row.kind, tokens);
     let bend = row.bend().map_or(String::new(), |bend| format!(", {bend}"));
+    let radius = row
+        .value
+        .filter(|_| row.bend().is_some() && display.shows_radius());
+    let radius =
+        radius.map(|[low, high]| format!(", R {}", figures::radius_of(0.5 * (low + high), 4)));
     let name = match (row.remark, row.count) {
-        ("", 1) => short_name(row.kind).to_owned() + &bend,
+        ("", 1) => short_name(row.kind).to_owned() + &bend + radius.as_deref().unwrap_or_default(),
         ("", count) => format!("{} ×{count}", short_name(row.kind)),
         (remark, _) => remark.to_owned(),
     };
@@ -241,7 +260,11 @@ fn row_ui(ui: &mut Ui, row: &FeatureRow, sampled: bool, is_chosen: bool) -> Resp
     };
     let mut left = rect.with_min_x(rect.left() + 6.0 * STEP);
     left.max.x -= if is_wide { 24.0 } else { 38.0 } * STEP;
-    let short = name.replace("maximum", "max").replace("minimum", "min");
+    let short = match (row.remark, row.count, row.bend(), &radius) {
+        ("", 1, Some("tightest"), Some(radius)) => format!("Tightest{radius}"),
+        ("", 1, Some(_), Some(radius)) => format!("Flattest{radius}"),
+        _ => name.replace("maximum", "max").replace("minimum", "min"),
+    };
     widgets::label_in(ui, left, &short, tokens.text);
     let inner = rect.with_max_x(rect.right() - STEP);
     let place = match row.value.is_none() && is_wide {

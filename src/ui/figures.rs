@@ -1,7 +1,9 @@
 //! Numbers as the screen shows them.
 
 use crate::geometry::Range;
-pub use crate::geometry::{SMALL, coordinate, significant, to_resolution, without_negative_zero};
+pub use crate::geometry::{
+    SMALL, coordinate, radius_of, significant, to_resolution, without_negative_zero,
+};
 
 /// Write an angle given in radians as degrees.
 pub fn degrees(radians: f64, decimals: usize) -> String {
@@ -57,6 +59,21 @@ pub fn range(range: Option<Range>, text: impl Fn(f64) -> String) -> String {
     )
 }
 
+/// Write the range of radii, 1/|κ|, of a range of curvatures as "low … high"; ∞ where it holds 0.
+pub fn radii(curvature: Option<Range>, digits: usize) -> String {
+    let Some(Range { low, high }) = curvature else {
+        return "–".to_owned();
+    };
+    let largest = low.abs().max(high.abs());
+    let smallest = match low <= 0.0 && high >= 0.0 {
+        true => 0.0,
+        false => low.abs().min(high.abs()),
+    };
+    [largest, smallest]
+        .map(|k| radius_of(k, digits))
+        .join(" … ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -82,6 +99,15 @@ mod tests {
         assert_eq!(significant(-1.25e-9, 4), "-1.25e-9");
         assert_eq!(significant(123_456.0, 4), "1.235e5");
         assert_eq!(degrees(std::f64::consts::PI, 1), "180.0°");
+    }
+
+    #[test]
+    fn radii_run_from_the_tightest_place_to_the_flattest() {
+        let radii = |low, high| radii(Some(Range { low, high }), 3);
+        assert_eq!(radii(0.1, 0.5), "2.00 … 10.0");
+        assert_eq!(radii(-0.5, -0.1), "2.00 … 10.0");
+        assert_eq!(radii(-0.5, 0.25), "2.00 … ∞");
+        assert_eq!(super::radii(None, 3), "–");
     }
 
     #[test]

@@ -6,6 +6,7 @@ use eframe::egui::{
 };
 use lucide_icons::Icon;
 
+use super::curvature_rows::curvature_rows;
 use super::curve_list::Item;
 use super::distance_panel::distance_ui;
 use super::formula_fields::FormulaFields;
@@ -17,9 +18,9 @@ use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
 use crate::document::{Curve, CurveId, Edit, Reference};
-use crate::editor::{Command, CurveReport, Editor, told};
-use crate::geometry::MAX_DEGREE;
+use crate::editor::{Command, CurvatureDisplay, CurveReport, Editor, told};
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::MAX_DEGREE;
 use crate::operations::{Value, reinterpret_degree};
 
 /// The inspector's own state.
@@ -55,12 +56,13 @@ impl Inspector {
         if let Some(reference) = &reference {
             self.reference_ui(ui, editor, id, reference);
         }
+        let display = editor.view().curvature_display;
         widgets::section(ui, "Properties", true, |ui| {
             if let Some((curve, report)) = curve.as_ref().zip(editor.sight().report()) {
-                figures_ui(ui, curve, &report);
+                figures_ui(ui, curve, &report, display);
             }
             if let Some((curve, report)) = reference.zip(editor.sight().reference_report()) {
-                reference_panel::figures_ui(ui, &curve, &report);
+                reference_panel::figures_ui(ui, &curve, &report, display);
             }
             distance_ui(ui, editor);
         });
@@ -152,7 +154,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     let most = MAX_DEGREE.min(curve.polygon.vertices().len() - 1);
     ui.spacing_mut().item_spacing.x = STEP;
     let step = |ui: &mut Ui, icon, to: usize, help: &str, is_possible| {
-        let name = format!("Reinterpret as degree {to}");
+        let name = format!("Degree {to}, keep polygon");
         let button = IconButton::new(icon, &name)
             .tooltip(help)
             .enabled(is_possible);
@@ -243,7 +245,7 @@ fn choice_ui(ui: &mut Ui, name: &str, colour: Color32) -> Response {
     response.on_hover_text(name)
 }
 
-fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
+fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport, display: CurvatureDisplay) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let kind = match (report.planar, curve.polygon.weights().is_some()) {
         (true, false) => "planar, polynomial",
@@ -256,19 +258,16 @@ fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport) {
     let plain = |value: f64| figures::significant(value, 6);
     let length = document_unit::length(ui.ctx(), figures::significant(report.length, 8));
     widgets::figure_row(ui, "Length", &length);
-    let curvature = document_unit::curvature(ui.ctx(), figures::range(report.curvature, plain));
-    widgets::figure_row(ui, "Curvature", &curvature);
+    curvature_rows(ui, display, report.curvature);
     let legs = document_unit::length(ui.ctx(), figures::range(report.legs, plain));
     widgets::figure_row(ui, "Polygon legs", &legs);
     let angle = |value: f64| figures::degrees(value, 3);
     widgets::figure_row(ui, "Turning angles", &figures::range(report.turns, angle));
-    let text = format!(
-        "× {}",
-        figures::significant(report.amplification.largest, 4)
-    );
+    let growth = figures::significant(report.amplification.largest, 4);
+    let text = format!("grows × {growth}");
     let tooltip = format!(
-        "Growth of an error from closed to float S-polygon: of one vertex; of all vertices up to {}",
+        "Error of the float vertices by one rounded closed vertex; all rounded: × {}",
         figures::significant(report.amplification.norm, 4)
     );
-    widgets::figure_row(ui, "Error gain", &text).on_hover_text(tooltip);
+    widgets::figure_row(ui, "Rounding in CAD", &text).on_hover_text(tooltip);
 }

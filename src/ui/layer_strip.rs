@@ -29,8 +29,7 @@ pub fn layer_strip_ui(
 ) {
     let right = gizmo::place(canvas).map_or(canvas.right(), |gizmo| gizmo.left());
     let width = right - canvas.left() - 4.0 * STEP;
-    // Beside the layers stands the switch of the closed S-polygon.
-    let is_narrow = width < (Layer::ALL.len() + 1) as f32 * SIDE + COMB;
+    let is_narrow = width < Layer::ALL.len() as f32 * SIDE + COMB;
     let place = (Align2::LEFT_TOP, canvas.min + Vec2::splat(2.0 * STEP));
     widgets::overlay(context, "layers", place, |ui| {
         let tokens = Tokens::of(ui);
@@ -45,9 +44,6 @@ pub fn layer_strip_ui(
                 ui.spacing_mut().item_spacing.x = 0.0;
                 for layer in Layer::ALL {
                     switch_ui(ui, editor, layer, commands);
-                    if layer == Layer::Clamped {
-                        closed_follow_ui(ui, editor, commands);
-                    }
                 }
                 if !is_narrow {
                     divider_ui(ui);
@@ -79,24 +75,6 @@ fn switch_ui(ui: &mut Ui, editor: &Editor, layer: Layer, commands: &mut Vec<Acti
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, shown, layer.label()));
     let name = keyboard::with_key(layer.label(), command.shortcut());
     let tooltip = format!("{name}\n{}", command.tooltip());
-    if response.on_hover_text(tooltip).clicked() {
-        commands.push(command.into());
-    }
-}
-
-/// Whether the other closed vertices follow a dragged one.
-fn closed_follow_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
-    let command = Command::ToggleClosedFollow;
-    let shown = editor.sight().layers().shows(Layer::Clamped);
-    let follow = !editor.hand().following().closed_stay;
-    let tokens = Tokens::of(ui);
-    let own = tokens.named(Layer::Clamped.row().colour);
-    let colours = [if shown { own } else { tokens.faint_text }; 2];
-    let icon = if follow { Icon::Link } else { Icon::Unlink };
-    let (_, response) = widgets::pressable_icon(ui, Vec2::splat(SIDE), icon, colours, false);
-    response.widget_info(|| WidgetInfo::selected(Role::CheckBox, true, follow, command.label()));
-    let state = if follow { "follow" } else { "stay" };
-    let tooltip = format!("Other closed vertices: {state}\n{}", command.tooltip());
     if response.on_hover_text(tooltip).clicked() {
         commands.push(command.into());
     }

@@ -9,7 +9,7 @@ use super::menu_item::{WIDTH, blank, item_ui};
 use super::plots::others;
 use super::shell::Shell;
 use super::widgets;
-use crate::editor::{Command, Editor, Follow, Layer, NamedView, ToolKind};
+use crate::editor::{Command, CurvatureDisplay, Editor, Follow, Layer, NamedView, ToolKind};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::KINDS;
 use crate::io::examples::EXAMPLES;
@@ -189,6 +189,8 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
     ];
     view.extend(Layer::ALL.map(|layer| command(Command::ToggleLayer(layer))));
     view.push(command(Command::ToggleBands));
+    let displays = CurvatureDisplay::ALL.map(|display| command(Command::ShowCurvature(display)));
+    view.push(Entry::Submenu("Show curvature", displays.into()));
     view.push(Divider);
     view.extend(NamedView::ALL.map(|view| command(Command::View(view))));
     view.extend([
@@ -202,9 +204,10 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         Item(Action::ToggleTheme),
     ]);
-    let tools = ToolKind::ALL
-        .map(|tool| command(Command::Tool(tool)))
-        .into();
+    let tools = ToolKind::ALL.map(|tool| command(Command::Tool(tool)));
+    let tools = tools
+        .into_iter()
+        .chain([Divider, Item(Action::ToggleToolNames)]);
     let help = vec![
         Item(Action::Manual),
         Item(Action::Keys),
@@ -218,7 +221,7 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         ("Edit", edit),
         ("Curve", curve),
         ("View", view),
-        ("Tools", tools),
+        ("Tools", tools.collect()),
         ("Help", help),
     ]
 }

@@ -37,7 +37,7 @@ const SQUARE: f32 = 3.5;
 const CROWD: usize = 200;
 
 /// How strong the evolute is beside the curve: it runs over all of the canvas.
-const EVOLUTE_STRENGTH: f32 = 0.7;
+const EVOLUTE_STRENGTH: f32 = 0.35;
 
 /// An evolute smaller than this, in points, is marked by a disc.
 const SMALL_EVOLUTE: f32 = 4.0;
@@ -113,14 +113,14 @@ fn kept_clear(brush: &Brush<'_>, scene: &Scene) -> Vec<Pos2> {
 }
 
 impl Brush<'_> {
-    /// Paint comb, evolute and both polygons, behind the curve.
+    /// Paint the evolute, then the comb and both polygons, behind the curve.
     fn derived(&self, curve: &CurveScene) {
         let fade = fading(curve);
         let tokens = self.tokens;
-        self.hairs(&curve.teeth, fade(tokens.comb_teeth));
-        self.chain(&curve.comb, Stroke::new(1.0, fade(tokens.comb)));
         let evolute = fade(tokens.evolute).gamma_multiply(EVOLUTE_STRENGTH);
         self.evolute(&curve.evolute, evolute);
+        self.hairs(&curve.teeth, fade(tokens.comb_teeth));
+        self.chain(&curve.comb, Stroke::new(1.0, fade(tokens.comb)));
         self.legs(&curve.clamped, true, Stroke::new(1.0, fade(tokens.clamped)));
         let float = if curve.active { 1.25 } else { 1.0 };
         self.legs(&curve.float, false, Stroke::new(float, fade(tokens.float)));

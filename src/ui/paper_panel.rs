@@ -7,7 +7,7 @@ use eframe::egui::{
 use lucide_icons::Icon;
 
 use super::help::{self, Topic};
-use super::theme::{self, STEP, Tokens};
+use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::editor::Editor;
 use crate::geometry::paper::Shortening;
@@ -53,13 +53,17 @@ impl PaperPanel {
             widgets::filling(ui, |ui| {
                 help::mark(ui, ui.max_rect(), Topic::Paper);
                 let request = heading_ui(ui, page);
+                // The buttons stand at the bottom of every page, however long its text is.
+                let foot = Panel::bottom("turning").frame(Frame::NONE).resizable(false);
+                let turned = foot.exact_size(ROW + 2.0 * STEP).show(ui, |ui| {
+                    ui.add_space(2.0 * STEP);
+                    turning_ui(ui, page)
+                });
                 let opened = widgets::scrolling(ui, page.title(), |ui| {
                     ui.spacing_mut().item_spacing.y = 2.0 * STEP;
-                    let opened = self.page_ui(ui, editor, page);
-                    ui.add_space(2.0 * STEP);
-                    opened.or(turning_ui(ui, page))
+                    self.page_ui(ui, editor, page)
                 });
-                request.or(opened.map(Some))
+                request.or(opened.or(turned.inner).map(Some))
             })
         });
         let opened = request.inner?;

@@ -3,13 +3,14 @@
 use eframe::egui::Ui;
 use glam::{DQuat, EulerRot};
 
+use super::curvature_rows::curvature_rows;
 use super::formula_fields::FormulaFields;
 use super::number_field::{FieldEvent, NumberField, field_width, vector_row};
 use super::theme::STEP;
 use super::widgets;
 use super::{document_unit, figures};
 use crate::document::{CurveId, Reference};
-use crate::editor::{Editor, ReferenceChange, ReferenceReport, told};
+use crate::editor::{CurvatureDisplay, Editor, ReferenceChange, ReferenceReport, told};
 use crate::geometry::parameters::Quantity;
 use crate::geometry::references::{AnalyticForm, ReferenceCurve, ReferenceForm};
 
@@ -148,7 +149,12 @@ fn send<T>(
 }
 
 /// Show the figures of a reference, which are those of its samples.
-pub fn figures_ui(ui: &mut Ui, reference: &Reference, report: &ReferenceReport) {
+pub fn figures_ui(
+    ui: &mut Ui,
+    reference: &Reference,
+    report: &ReferenceReport,
+    display: CurvatureDisplay,
+) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let kind = match report.planar {
         true => "planar",
@@ -161,9 +167,6 @@ pub fn figures_ui(ui: &mut Ui, reference: &Reference, report: &ReferenceReport) 
     let length = length.unwrap_or_else(|| "none: it has a gap".to_owned());
     widgets::figure_row(ui, "Length", &length);
     if reference.curve.form().is_smooth() {
-        let plain = |value: f64| figures::significant(value, 6);
-        let curvature = figures::range(report.curvature, plain);
-        let curvature = document_unit::curvature(ui.ctx(), curvature);
-        widgets::figure_row(ui, "Curvature", &curvature);
+        curvature_rows(ui, display, report.curvature);
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::editor::{Layer, Layers};
+use crate::editor::{CurvatureDisplay, Layer, Layers};
 
 /// The parts of the window beside the document; the settings keep them from run to run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -27,6 +27,10 @@ pub struct Shell {
     pub(super) draw_way: Option<String>,
     /// Whether bands of rising and falling curvature are shown on the canvas.
     pub(super) bands: bool,
+    /// Whether the tools show their names.
+    pub(super) tool_names: bool,
+    /// How curvatures are written, by name.
+    pub(super) curvature: String,
     /// Whether a card offers the tour of the paper: from the first start until it is answered.
     pub(super) offers_tour: bool,
 }
@@ -43,6 +47,8 @@ impl Default for Shell {
             nudge_step: None,
             draw_way: None,
             bands: true,
+            tool_names: false,
+            curvature: CurvatureDisplay::default().name().to_owned(),
             offers_tour: false,
         }
     }

@@ -20,11 +20,16 @@ use super::widgets;
 use crate::editor::{Editor, ToolKind};
 use crate::operations;
 
-/// The share of the height that the list of curves takes at first, that of features, and the most that
-/// either takes.
-const SHARES: [f32; 3] = [0.22, 0.3, 0.6];
+/// The most of the height that the list of curves takes.
+const CURVES: f32 = 0.4;
 
-/// The least height of the lists of curves and of features.
+/// The share of the height that the list of features takes at first, and the most.
+const FEATURES: [f32; 2] = [0.3, 0.6];
+
+/// The margin above and below a list.
+const MARGIN: i8 = 8;
+
+/// The height below which no list is cut.
 const LEAST: f32 = 5.0 * ROW;
 
 /// The height of the bar of tabs, and the width of a tab.
@@ -68,9 +73,7 @@ impl Side {
     /// Show the panel in all the room that there is.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
         help::mark(ui, ui.max_rect(), Topic::Curves);
-        list_ui(ui, true, "curves", |ui| {
-            self.curves.show(ui, editor, commands);
-        });
+        self.curves_ui(ui, editor, commands);
         self.notice_task(editor);
         let bar = Panel::top("side tabs").resizable(false).exact_size(TABS[0]);
         let bar = bar.frame(Frame::NONE.inner_margin(Margin::symmetric(12, 0)));
@@ -78,6 +81,19 @@ impl Side {
         let body = CentralPanel::default().frame(Frame::NONE);
         body.show(ui, |ui| {
             widgets::filling(ui, |ui| self.body_ui(ui, editor));
+        });
+    }
+
+    /// The list of curves, as tall as its rows.
+    fn curves_ui(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
+        let rows = self.curves.height(ui, editor) + 2.0 * f32::from(MARGIN);
+        let height = rows
+            .min((CURVES * ui.available_height()).max(LEAST))
+            .round();
+        let panel = Panel::top("curves").resizable(false).exact_size(height);
+        let panel = panel.frame(Frame::NONE.inner_margin(Margin::symmetric(12, MARGIN)));
+        panel.show(ui, |ui| {
+            widgets::filling(ui, |ui| self.curves.show(ui, editor, commands));
         });
     }
 
@@ -137,7 +153,7 @@ impl Side {
         });
         let task = self.task.filter(|_| self.is_task_in_front);
         if task.is_none() && self.tab == Tab::Inspector {
-            list_ui(ui, false, "features", |ui| {
+            list_ui(ui, "features", |ui| {
                 help::mark(ui, ui.max_rect(), Topic::Features);
                 ui.strong("Features");
                 feature_list_ui(ui, editor);
@@ -197,33 +213,22 @@ fn task(editor: &Editor) -> Option<Task> {
     Some(Task::Applied(in_progress.operation().name))
 }
 
-/// Show a list at the top or at the bottom, with a share of the height that the user can change, and nothing
-/// else does.
-fn list_ui(ui: &mut Ui, is_at_top: bool, name: &str, contents: impl FnOnce(&mut Ui)) {
+/// Show a list at the bottom, with a share of the height that the user can change, and nothing else does.
+fn list_ui(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui)) {
     let height = ui.available_height();
     let id = Id::unique(name);
-    let [curves, features, most] = SHARES;
-    let (panel, first) = match is_at_top {
-        true => (Panel::top(name), curves),
-        false => (Panel::bottom(name), features),
-    };
+    let [first, most] = FEATURES;
     let share = ui.data_mut(|data| data.get_persisted::<f32>(id));
     let most = (most * height).max(LEAST);
     let size = (share.unwrap_or(first) * height).clamp(LEAST, most);
-    let panel = panel.frame(Frame::NONE.inner_margin(Margin::symmetric(12, 8)));
+    let panel = Panel::bottom(name).frame(Frame::NONE.inner_margin(Margin::symmetric(12, MARGIN)));
     let panel = panel.resizable(false).exact_size(size.round());
     let rect = panel
         .show(ui, |ui| widgets::filling(ui, contents))
         .response
         .rect;
-    let line = if is_at_top { rect.bottom() } else { rect.top() };
-    if let Some(at) = handle_ui(ui, name, rect.x_range(), line) {
-        let wanted = if is_at_top {
-            at - rect.top()
-        } else {
-            rect.bottom() - at
-        };
-        let share = wanted.clamp(LEAST, most) / height;
+    if let Some(at) = handle_ui(ui, name, rect.x_range(), rect.top()) {
+        let share = (rect.bottom() - at).clamp(LEAST, most) / height;
         ui.data_mut(|data| data.insert_persisted(id, share));
     }
 }

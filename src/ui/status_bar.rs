@@ -3,25 +3,26 @@
 use eframe::egui::{Align, Label, Layout, RichText, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::action::Action;
+use super::chips::{self, chips_ui};
 use super::figures;
 use super::shell::Shell;
 use super::theme::{self, STEP, Tokens};
 use super::unit_menu::{CELL, unit_cell_ui};
 use super::widgets;
-use crate::editor::{Editor, Readout};
+use crate::editor::{CurvatureDisplay, Editor, Readout};
 use crate::geometry::expressions::LengthUnit;
 
 /// The bar's height in points.
 pub const HEIGHT: f32 = 28.0;
 
 /// The width that is kept for the hint.
-const HINT: f32 = 280.0;
+const HINT: f32 = 200.0;
 
 /// The space between cells.
 const GAP: f32 = 4.0 * STEP;
 
 /// The cells that give way where there is too little room, the first one first.
-const GIVING_WAY: [&str; 3] = ["u", "t", "κ"];
+const GIVING_WAY: [&str; 5] = ["u", "t", "κ", "R", "scale"];
 
 /// Show the bar; `hint` describes the mouse's next action.
 pub fn status_bar_ui(
@@ -31,18 +32,20 @@ pub fn status_bar_ui(
     (hint, actions): (&str, &mut Vec<Action>),
 ) {
     let readout = editor.sight().readout();
-    let width = ui.available_width();
+    let display = editor.view().curvature_display;
+    let width = ui.available_width() - chips::WIDTH;
     widgets::at_right(ui, |ui| {
         ui.spacing_mut().item_spacing.x = GAP;
         unit_cell_ui(ui, editor, shell, actions);
         let unit = editor.document().unit();
-        let cells = fitting(cells(&readout, unit), width - CELL.x - GAP);
+        let cells = fitting(cells(&readout, display, unit), width - CELL.x - GAP);
         for (name, text, width) in cells.into_iter().rev() {
             let (size, font) = (vec2(width, CELL.y), theme::number_font());
             let cell = widgets::cell(ui, size, Sense::hover(), [name, &text], font);
             let name = format!("{name} {text}");
             cell.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
         }
+        chips_ui(ui, editor, actions);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             let hint = RichText::new(hint).color(Tokens::of(ui).text);
             ui.add(Label::new(hint).truncate());
@@ -66,7 +69,7 @@ fn fitting(mut cells: Vec<Cell>, width: f32) -> Vec<Cell> {
 
 /// The cells from left to right. Widths are fixed, so that no number
 /// moves its neighbours.
-fn cells(readout: &Readout, unit: Option<LengthUnit>) -> Vec<Cell> {
+fn cells(readout: &Readout, display: CurvatureDisplay, unit: Option<LengthUnit>) -> Vec<Cell> {
     let pixel = 1.0 / readout.scale.max(f64::MIN_POSITIVE);
     let coordinate = |value: Option<f64>| Some(figures::to_resolution(value?, 0.5 * pixel));
     let axes = if readout.in_space { 3 } else { 2 };
@@ -77,14 +80,21 @@ fn cells(readout: &Readout, unit: Option<LengthUnit>) -> Vec<Cell> {
     });
     let parameter = readout.parameter.map(|parameter| format!("{parameter:.3}"));
     let curvature = readout.curvature.map(|k| figures::significant(k, 5));
+    let radius = readout.curvature.map(|k| figures::radius_of(k, 5));
     let degree = readout.degree.map(|degree| degree.to_string());
     let others = [
         (readout.parameter_name, parameter, 64.0),
         ("κ", curvature, 88.0),
+        ("R", radius, 88.0),
         ("degree", degree, 60.0),
         ("scale", Some(zoom(readout.scale, unit)), 136.0),
     ];
-    let all = place.chain(others);
+    let is_shown = |name: &str| match name {
+        "κ" => display.shows_curvature(),
+        "R" => display.shows_radius(),
+        _ => true,
+    };
+    let all = place.chain(others).filter(|(name, ..)| is_shown(name));
     all.map(|(name, text, width)| (name, text.unwrap_or("–".to_owned()), width))
         .collect()
 }

@@ -1,16 +1,16 @@
-//! The tools at the left edge, as icons.
+//! The tools at the left edge, as icons with or without names.
 
-use eframe::egui::{Role, Sense, Ui, Vec2, WidgetInfo, vec2};
+use eframe::egui::{Color32, Response, Role, Sense, Ui, Vec2, WidgetInfo, vec2};
 use lucide_icons::Icon;
 
 use super::action::Action;
 use super::theme::{STEP, Tokens};
 use super::{icons, keyboard, widgets};
-use crate::editor::{Command, Editor, Follow, ToolKind};
+use crate::editor::{Command, Editor, ToolKind};
 use crate::operations::{ALL, Inputs};
 
-/// The rail's width in points.
-pub const WIDTH: f32 = 48.0;
+/// The rail's width in points, without and with names.
+const WIDTHS: [f32; 2] = [48.0, 176.0];
 
 /// The least and the largest side of a button.
 const SIDES: [f32; 2] = [24.0, 40.0];
@@ -21,9 +21,13 @@ const GAP: f32 = 0.5 * STEP;
 /// The height of a line between groups, with the space below it.
 const DIVIDER: f32 = 1.0 + GAP;
 
-/// Show the tools, then the operations that create curves, and below the switches for every tool. The buttons
-/// are as large as all of them fit.
-pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
+/// The rail's width in points.
+pub fn width(names: bool) -> f32 {
+    WIDTHS[usize::from(names)]
+}
+
+/// Show the tools, with their `names` or as icons alone, then the operations that create curves. The buttons are as large as all of them fit.
+pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, names: bool, commands: &mut Vec<Action>) {
     ui.spacing_mut().item_spacing = Vec2::splat(GAP);
     let groups = groups();
     let count = groups.iter().map(Vec::len).sum::<usize>();
@@ -37,7 +41,7 @@ pub fn tool_rail_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
                 divider_ui(ui);
             }
             for command in group {
-                button_ui(ui, editor, command, side, commands);
+                button_ui(ui, editor, command, (side, names), commands);
             }
         }
     });
@@ -57,18 +61,13 @@ fn groups() -> Vec<Vec<Command>> {
     let makers = ALL.iter().copied();
     let makers = makers.filter(|it| matches!(it.inputs, Inputs::None | Inputs::UpToTwo));
     groups.push(makers.map(Command::Operation).collect());
-    groups.push(vec![
-        Command::ToggleSnapping,
-        Command::Follow(Follow::InHarmony),
-        Command::Follow(Follow::Softly),
-        Command::ToggleKeeping,
-        Command::Fit,
-    ]);
+    groups.push(vec![Command::Fit]);
     groups
 }
 
 fn divider_ui(ui: &mut Ui) {
-    let (rect, _) = ui.allocate_exact_size(vec2(WIDTH - 6.0 * STEP, 1.0), Sense::hover());
+    let (rect, _) =
+        ui.allocate_exact_size(vec2(ui.available_width() - 4.0 * STEP, 1.0), Sense::hover());
     ui.painter().rect_filled(rect, 0, Tokens::of(ui).outline);
 }
 
@@ -76,7 +75,7 @@ fn button_ui(
     ui: &mut Ui,
     editor: &Editor,
     command: Command,
-    side: f32,
+    (side, names): (f32, bool),
     commands: &mut Vec<Action>,
 ) {
     let enabled = command.is_enabled(editor);
@@ -91,8 +90,14 @@ fn button_ui(
         } else {
             tokens.text
         };
-        let (size, colours) = (vec2(SIDES[1], side), [rest, tokens.strong_text]);
-        let (_, response) = widgets::pressable_icon(ui, size, icon, colours, is_on);
+        let colours = [rest, tokens.strong_text];
+        let response = match names {
+            true => named_ui(ui, side, (icon, &name), colours, is_on),
+            false => {
+                let size = vec2(SIDES[1], side);
+                widgets::pressable_icon(ui, size, icon, colours, is_on).1
+            }
+        };
         response.widget_info(|| match checked {
             Some(on) => WidgetInfo::selected(Role::Button, ui.is_enabled(), on, &name),
             None => WidgetInfo::labeled(Role::Button, ui.is_enabled(), &name),
@@ -105,4 +110,22 @@ fn button_ui(
     if button.inner.clicked() {
         commands.push(command.into());
     }
+}
+
+/// A button with an icon and a name, across the rail.
+fn named_ui(
+    ui: &mut Ui,
+    side: f32,
+    (icon, name): (Icon, &str),
+    [rest, hot]: [Color32; 2],
+    is_on: bool,
+) -> Response {
+    let size = vec2(ui.available_width(), side);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    widgets::row_background(ui, rect, &response, is_on);
+    let colour = if response.hovered() { hot } else { rest };
+    let (left, right) = rect.split_left_right_at_x(rect.left() + SIDES[1]);
+    widgets::icon(ui, left, icon, colour);
+    widgets::label_in(ui, right, name, colour);
+    response
 }

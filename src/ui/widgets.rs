@@ -342,8 +342,28 @@ fn text_row(ui: &mut Ui, name: &str, text: &str, font: FontId) -> Response {
     response
 }
 
+/// A figure, and its raw value for the tooltip if it is shown as 0.
+pub type Figure = (String, Option<f64>);
+
+/// Write a figure; what is not above rounding noise reads 0.
+pub fn above_noise(value: f64, noise: f64, text: impl Fn(f64) -> String) -> Figure {
+    match value != 0.0 && value.abs() <= noise {
+        true => (text(0.0), Some(value)),
+        false => (text(value), None),
+    }
+}
+
+/// One row of figures whose tooltip has the raw value of what reads 0.
+pub fn quiet_row(ui: &mut Ui, name: &str, (text, raw): &Figure) -> Response {
+    let response = figure_row(ui, name, text);
+    match raw {
+        Some(raw) => response.on_hover_text(format!("Rounding: {raw:e}")),
+        None => response,
+    }
+}
+
 /// Rows of two figures each.
-pub fn figure_pairs(ui: &mut Ui, pairs: &[(&str, String)]) {
+pub fn figure_pairs(ui: &mut Ui, pairs: &[(&str, Figure)]) {
     let gap = 4.0 * STEP;
     let width = 0.5 * (ui.available_width() - gap);
     for row in pairs.chunks(2) {
@@ -352,7 +372,7 @@ pub fn figure_pairs(ui: &mut Ui, pairs: &[(&str, String)]) {
             for (name, figures) in row {
                 ui.allocate_ui(Vec2::new(width, 5.0 * STEP), |ui| {
                     ui.set_width(width);
-                    figure_row(ui, name, figures);
+                    quiet_row(ui, name, figures);
                 });
             }
         });

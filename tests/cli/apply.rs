@@ -533,7 +533,7 @@ fn bad_values_and_bad_usage_are_told_apart() {
         ),
         (
             &["harmonise", "a.batten", "b.batten", "--locked", "1,x"],
-            "Also locked: whole numbers, separated by commas are needed",
+            "Also hold vertices: whole numbers, separated by commas are needed",
         ),
         (&[], "Usage"),
     ] {
@@ -991,7 +991,7 @@ fn steps_refuse_what_bends_an_end() {
     let (folder, file) = with_example("arc");
     for (name, label) in [
         ("end-curvature", "End curvature"),
-        ("start-slope", "Start slope"),
+        ("start-slope", "Start curvature slope"),
     ] {
         let option = format!("--{name}=0.1");
         let steps = [

@@ -536,3 +536,21 @@ fn a_slow_save_does_not_hold_the_frame_and_saves_the_state_of_its_request() {
     script.command(Command::Undo);
     assert!(!script.editor.workspace().is_modified());
 }
+
+#[test]
+fn an_empty_document_is_not_kept_for_recovery() {
+    let mut desk = Desk::new();
+    let mut script = desk.window();
+    drag(&mut script, 4);
+    desk.pass(0, &mut script);
+    desk.pass(40, &mut script);
+    assert_eq!(desk.autosaves().len(), 1);
+    script.command(Command::DeleteCurve);
+    assert!(script.editor.document().is_empty());
+    desk.pass(0, &mut script);
+    desk.pass(40, &mut script);
+    assert!(desk.autosaves().is_empty());
+    Desk::crash(script);
+    let next = desk.window();
+    assert!(next.editor.recovery().recoverable().is_empty());
+}

@@ -182,12 +182,14 @@ fn the_second_curve_is_the_nearest_until_another_one_is_clicked_or_selected() {
     script.key(Key::Escape);
     script.command(Command::Undo);
     // By its row, beside the active one.
-    script.editor.toggle_curve(third);
+    let document = script.editor.document().clone();
+    script.editor.hand_mut().toggle_curve(third, &document);
     assert_eq!(script.curve(), arc);
     script.try_out("join").expect("an operation");
     assert_eq!(second(&script), Some(third));
     script.key(Key::Escape);
-    script.editor.toggle_curve(third);
+    let document = script.editor.document().clone();
+    script.editor.hand_mut().toggle_curve(third, &document);
     script.try_out("join").expect("an operation");
     assert_eq!(second(&script), Some(other));
 }

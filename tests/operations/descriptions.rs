@@ -202,7 +202,7 @@ fn what_is_typed_is_read_with_the_limits_that_are_known() {
         (
             locked,
             "1,x",
-            "Also locked: whole numbers, separated by commas are needed: column 3: “x” means",
+            "Also hold vertices: whole numbers, separated by commas are needed: column 3: “x” means",
         ),
         (
             point,
@@ -212,7 +212,7 @@ fn what_is_typed_is_read_with_the_limits_that_are_known() {
         (
             named("start-slope").expect("it is there"),
             "1,2",
-            "Start slope: a number is needed",
+            "Start curvature slope: a number is needed",
         ),
     ] {
         let refused = parameter.read(text).expect_err("refused");

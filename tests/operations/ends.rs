@@ -171,7 +171,10 @@ fn a_correction_that_changes_the_whole_curve_says_what_keeps_it() {
     ] {
         let mut lines = remarks.lines();
         assert!(lines.any(|line| line.starts_with(begin)), "{remarks}");
-        assert!(remarks.contains("“Also locked” (--locked)"), "{remarks}");
+        assert!(
+            remarks.contains("“Also hold vertices” (--locked)"),
+            "{remarks}"
+        );
     }
 }
 

@@ -93,25 +93,34 @@ fn an_arrow_key_that_is_held_makes_one_step() {
 }
 
 #[test]
-fn ways_of_following_are_switches_that_show_whether_they_are_on() {
+fn modes_of_dragging_are_chips_that_show_whether_they_are_on() {
     let mut window = open_window();
-    for (label, follow) in [
-        ("Live harmony", Follow::InHarmony),
-        ("Soft drag", Follow::Softly),
+    for (label, command, at_first) in [
+        ("Live harmony", Command::Follow(Follow::InHarmony), false),
+        ("Soft drag", Command::Follow(Follow::Softly), false),
+        ("Keep features", Command::ToggleKeeping, false),
+        ("Snapping", Command::ToggleSnapping, true),
+        ("Closed vertices follow", Command::ToggleClosedFollow, true),
     ] {
         let is_on = |window: &Window| {
             let node = window.get_by_label(label).accesskit_node();
             let shown = node.toggled() == Some(Toggled::True);
             let editor = window.state().editor();
-            let checked = Command::Follow(follow).is_checked(editor);
+            let checked = command.is_checked(editor);
             assert_eq!(checked, Some(shown), "{label}");
             shown
         };
-        assert!(!is_on(&window), "{label}");
+        let bar = window.get_by_label(label).rect();
+        assert_eq!(is_on(&window), at_first, "{label}");
         click(&mut window, label);
-        assert!(is_on(&window), "{label}");
+        assert_eq!(is_on(&window), !at_first, "{label}");
         click(&mut window, label);
-        assert!(!is_on(&window), "{label}");
+        assert_eq!(is_on(&window), at_first, "{label}");
+        assert_eq!(
+            window.get_by_label(label).rect(),
+            bar,
+            "{label} stays in place"
+        );
     }
 }
 

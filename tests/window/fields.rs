@@ -85,10 +85,10 @@ fn keys_typed_into_any_field_are_no_shortcuts() {
     }
     press(&mut window, Modifiers::NONE, Key::V);
     for (operation, labels) in [
-        ("Split curve", ["At u", "Maximum subdivisions"].as_slice()),
+        ("Split curve", ["At u", "Refine at most"].as_slice()),
         (
             "Trim curve",
-            ["From u", "To u", "Maximum subdivisions"].as_slice(),
+            ["From u", "To u", "Refine at most"].as_slice(),
         ),
         ("Round coordinates", ["Digits"].as_slice()),
     ] {

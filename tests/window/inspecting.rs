@@ -89,3 +89,58 @@ fn the_list_of_keys_has_what_can_be_typed() {
     }
     assert!(window.query_all_by_label("Rename curve").count() > 0);
 }
+
+#[test]
+fn view_chooses_between_curvature_and_radius() {
+    let mut window = open_window();
+    choose(&mut window, &["File", "Examples", "Bottle"]);
+    let has = |window: &Window, text: &str| window.query_all_by_label_contains(text).count() > 0;
+    for (choice, curvature, radius) in [
+        ("Curvature as both", true, true),
+        ("Curvature as κ", true, false),
+        ("Curvature as R", false, true),
+    ] {
+        choose(&mut window, &["View", "Show curvature", choice]);
+        assert_eq!(has(&window, "Curvature: "), curvature, "{choice}");
+        assert_eq!(has(&window, "Radius: "), radius, "{choice}");
+        let cells = [has(&window, "κ –"), has(&window, "R –")];
+        assert_eq!(cells, [curvature, radius], "{choice}");
+    }
+}
+
+#[test]
+fn the_list_of_curves_is_as_tall_as_its_rows_up_to_a_share() {
+    let height = |count: usize| {
+        let curve = |place: usize| {
+            let at = |x: f64| DVec3::new(x, x * x, place as f64);
+            let vertices = (0..4).map(|vertex| at(f64::from(vertex))).collect();
+            let polygon = FloatPolygon::new(3, vertices, None, false).expect("a polygon");
+            Curve::new(format!("number {place}"), polygon)
+        };
+        let document = Document::from_curves((0..count).map(curve));
+        let window = open_window_with(Editor::with_document(document), 1440.0, 900.0);
+        let top = window.get_by_label("Collapse curve list").rect().top();
+        window.get_by_label("Inspector").rect().top() - top
+    };
+    let [few, more, many] = [3, 6, 60].map(height);
+    assert!((more - few - 3.0 * 24.0).abs() < 1.0, "{few} {more}");
+    assert!(more < many && many < 0.45 * 900.0, "{many}");
+    let mut window = open_window();
+    let tabs = |window: &Window| window.get_by_label("Inspector").rect().top();
+    let before = tabs(&window);
+    click(&mut window, "Collapse curve list");
+    assert!(tabs(&window) < before - 40.0);
+    click(&mut window, "Expand curve list");
+    assert_eq!(tabs(&window), before);
+}
+
+#[test]
+fn tools_show_their_names_on_demand() {
+    let mut window = open_window();
+    let width = |window: &Window| window.get_by_label("Measure").rect().width();
+    let before = width(&window);
+    choose(&mut window, &["Tools", "Tool names"]);
+    assert!(width(&window) > before + 80.0);
+    choose(&mut window, &["Tools", "Tool names"]);
+    assert_eq!(width(&window), before);
+}

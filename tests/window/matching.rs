@@ -41,7 +41,7 @@ fn curvature_and_slope_are_fixed_typed_and_freed() {
     click(&mut window, "Use current end");
     let target = |window: &Window| curve(window).targets.start.expect("a target");
     assert_eq!(target(&window).curvature, None);
-    click(&mut window, "Lock curvature");
+    click(&mut window, "Require curvature");
     let actual = curve(&window)
         .polygon
         .end_jet(End::Start)
@@ -52,13 +52,20 @@ fn curvature_and_slope_are_fixed_typed_and_freed() {
     strike(&mut window, "0.25");
     enter(&mut window);
     assert_eq!(target(&window).curvature, Some(0.25));
-    click(&mut window, "Lock slope");
-    window.get_by_label("target slope").click();
+    for (radius, curvature) in [("R8", 0.125), ("r=-2", -0.5), ("1/4", 0.25)] {
+        window.get_by_label("target curvature").click();
+        window.run();
+        strike(&mut window, radius);
+        enter(&mut window);
+        assert_eq!(target(&window).curvature, Some(curvature), "{radius}");
+    }
+    click(&mut window, "Require curvature slope");
+    window.get_by_label("target curvature slope").click();
     window.run();
     strike(&mut window, "-0.5");
     enter(&mut window);
     assert_eq!(target(&window).slope, Some(-0.5));
-    click(&mut window, "Lock curvature");
+    click(&mut window, "Require curvature");
     assert_eq!(
         (target(&window).curvature, target(&window).slope),
         (None, None)

@@ -272,7 +272,7 @@ fn many_options_are_a_list_that_opens() {
     window.get_by_label("Keep ends");
     window.get_by_label("Keep ends").click();
     window.run();
-    click(&mut window, "Slope");
+    click(&mut window, "Curvature slope");
     let editor = window.state().editor();
     let trial = editor.operation().expect("it is tried out");
     let keep = trial.values().get(&trial.operation().parameters[0]);

@@ -82,3 +82,14 @@ fn unsaved_changes_are_asked_about_before_a_page_takes_their_place() {
     click(&mut window, "Discard");
     assert_eq!(curve(&window).name, "shortened");
 }
+
+#[test]
+fn the_button_to_the_next_page_stays_in_place() {
+    let mut window = open_window();
+    choose(&mut window, &["Help", "The paper"]);
+    let first = window.get_by_label("Next").rect();
+    for page in 1..5 {
+        click(&mut window, "Next");
+        assert_eq!(window.get_by_label("Next").rect(), first, "page {page}");
+    }
+}

@@ -226,6 +226,7 @@ fn layers_and_the_comb_are_in_sight_in_a_small_window_and_tell_their_keys() {
     }
     window.get_by_label_contains("degree 3");
     window.get_by_label_contains("scale ");
+    window.get_by_label("Live harmony");
     window.hover_at(window.get_by_label("Evolute").rect().center());
     window.run_steps(60);
     window.get_by_label_contains("Evolute (4)");
@@ -300,7 +301,7 @@ fn everything_about_an_end_fits_into_the_panel() {
         click(&mut window, "Use current end");
         let tab = window.get_by_label("Tool").rect();
         for name in [
-            "Lock direction",
+            "Require direction",
             "Translate terminal vertices",
             "Rotate terminal vertices",
         ] {

@@ -4,8 +4,8 @@ use crate::document::CurveId;
 use crate::editor::hand::following::Follow;
 use crate::editor::hand::input::{Key, Modifiers};
 use crate::editor::hand::tools::ToolKind;
-use crate::editor::view::NamedView;
 use crate::editor::view::layers::Layer;
+use crate::editor::view::{CurvatureDisplay, NamedView};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{KINDS, ReferenceKind};
 use crate::operations::{self, Operation};
@@ -65,6 +65,8 @@ pub enum Command {
     ToggleLayer(Layer),
     /// Show the bands of rising and falling curvature on the canvas, or only under the plot.
     ToggleBands,
+    /// Write curvatures as κ, as radii, or as both.
+    ShowCurvature(CurvatureDisplay),
     /// Snap to grid, vertices and targets, or not.
     ToggleSnapping,
     /// Let the neighbours of dragged vertices follow, or not.
@@ -127,6 +129,7 @@ impl Command {
                 | Self::Compare(_)
                 | Self::ToggleLayer(_)
                 | Self::ToggleBands
+                | Self::ShowCurvature(_)
                 | Self::ToggleSnapping
                 | Self::Follow(_)
                 | Self::ToggleClosedFollow
@@ -165,6 +168,7 @@ impl Command {
         all.extend([Self::ResetComb, Self::GoToFeature, Self::Compare(None)]);
         all.extend(Layer::ALL.map(Self::ToggleLayer));
         all.push(Self::ToggleBands);
+        all.extend(CurvatureDisplay::ALL.map(Self::ShowCurvature));
         all.extend([Self::ToggleSnapping, Self::ToggleKeeping]);
         all.extend(Follow::ALL.map(Self::Follow));
         all.push(Self::ToggleClosedFollow);
@@ -205,6 +209,7 @@ impl Command {
             Self::Compare(Some(_)) => "Compare with another curve",
             Self::ToggleLayer(layer) => layer.label(),
             Self::ToggleBands => "Feature bands on the canvas",
+            Self::ShowCurvature(display) => display.label(),
             Self::ToggleSnapping => "Snapping",
             Self::Follow(follow) => follow.label(),
             Self::ToggleClosedFollow => "Closed vertices follow",
@@ -254,6 +259,7 @@ impl Command {
             Self::ToggleBands => {
                 "Show the bands of rising and falling curvature along the curve, or only under the plot"
             }
+            Self::ShowCurvature(_) => "Choose whether the window shows κ, the radius R, or both",
             Self::ToggleSnapping => {
                 "Let dragged points snap to the grid, to vertices and to targets"
             }

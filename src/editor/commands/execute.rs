@@ -125,6 +125,7 @@ impl Editor {
                 self.view.layers.set(layer, !shown);
             }
             Command::ToggleBands => self.view.bands_only_plotted ^= true,
+            Command::ShowCurvature(display) => self.view.curvature_display = display,
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
             Command::Follow(follow) => self.hand.following.toggle(follow),
             Command::ToggleClosedFollow => {

@@ -58,6 +58,7 @@ impl Command {
                 Some(compared == other)
             }
             Command::ToggleBands => Some(!editor.view.bands_only_plotted),
+            Command::ShowCurvature(display) => Some(editor.view.curvature_display == display),
             Command::ToggleSnapping => Some(editor.hand.snapping),
             Command::Follow(follow) => Some(editor.hand.following.follow == Some(follow)),
             Command::ToggleClosedFollow => Some(!editor.hand.following.closed_stay),

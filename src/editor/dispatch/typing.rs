@@ -5,7 +5,6 @@ use crate::editor::hand::Entry;
 use crate::editor::hand::tools::{self, Transformation, Transformed};
 use crate::editor::hand::typed_point::{EntryError, TypedPoint};
 use crate::editor::reply::{Note, Refusal, Reply};
-use crate::editor::view::Look;
 
 impl Editor {
     /// Preview a typed text as far as it can be read: the vertex that it would set, or the rotation or scaling. An
@@ -21,25 +20,12 @@ impl Editor {
         let is_point = matches!(entry, Some(Entry::Point(_)));
         let typed = TypedPoint::read(text, unit).ok().filter(|_| is_point);
         let before = std::mem::replace(&mut self.hand.typed, typed);
-        if before != typed && typed.is_some() {
-            self.show_typed();
+        if before != typed
+            && let Some(look) = self.hand.look_at_typed(&self.context())
+        {
+            self.look(look);
         }
         before != typed
-    }
-
-    /// Bring the typed point into sight. In an empty document the first two points of a drawing set the size of
-    /// the view.
-    fn show_typed(&mut self) {
-        let tool = self.hand.tools.used();
-        let (_, Some(point)) = tool.leg(&self.context()) else {
-            return;
-        };
-        let look = match tool.drawn() {
-            [] if self.document().is_empty() => Look::Begin(vec![point]),
-            [first] if self.document().is_empty() => Look::Begin(vec![*first, point]),
-            _ => Look::Include(point),
-        };
-        self.look(look);
     }
 
     /// Set the typed vertex, or rotate or scale by the typed figure. A running drag ends.

@@ -17,6 +17,10 @@ const TOLERANCE: f64 = 1e-9;
 /// What evaluating an end point costs in accuracy, in units of its coordinates.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
+/// The largest figure that counts as rounding after a correction, relative to the largest coordinate. A derivative is
+/// a difference of up to a dozen vertices, each of them rounded.
+const NOISE: f64 = 64.0 * f64::EPSILON;
+
 /// The figures of the seven steps at one end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EndFitReport {
@@ -51,6 +55,8 @@ pub struct EndFitReport {
     pub remaining_angle: f64,
     /// The size of the polygon.
     pub size: f64,
+    /// What is only rounding.
+    pub noise: EndNoise,
     /// The tolerance that the loop works to, as a length.
     pub tolerance: f64,
     /// Whether every end that has a target is within the tolerance.
@@ -77,6 +83,36 @@ pub struct EndFitReport {
     pub outcome: Option<Reply>,
     /// The largest move of a vertex by the last "both ends at once", and which vertex.
     pub largest_move: Option<LargestMove>,
+}
+
+/// The errors of an end that are no larger than rounding makes them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EndNoise {
+    /// Of a distance: 64 units of rounding of the largest coordinate.
+    pub length: f64,
+    /// Of an angle in radians: that distance over the speed |C′| at the end.
+    pub angle: f64,
+    /// Of a curvature: that angle over the speed.
+    pub curvature: f64,
+    /// Of a curvature slope: that curvature over the speed.
+    pub slope: f64,
+}
+
+impl EndNoise {
+    /// The noise of an end with a speed, of a polygon with coordinates up to `far`; without speed only distances have
+    /// any.
+    fn of(far: f64, speed: f64) -> Self {
+        let length = NOISE * far;
+        let share = if speed > 0.0 { speed.recip() } else { 0.0 };
+        let angle = length * share;
+        let curvature = angle * share;
+        Self {
+            length,
+            angle,
+            curvature,
+            slope: curvature * share,
+        }
+    }
 }
 
 /// The match of an end.
@@ -257,6 +293,7 @@ impl EndFitSettings {
             remaining_distance: largest(&|left| left.vector.length()),
             remaining_angle: largest(&|left| left.angle.abs()),
             size,
+            noise: EndNoise::of(jet.point.abs().max_element().max(size), jet.speed()),
             tolerance,
             within: !targets.is_empty() && residual <= tolerance,
             targets: targets.len(),

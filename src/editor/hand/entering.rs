@@ -2,12 +2,14 @@
 
 use glam::DVec2;
 
+use crate::document::{CurveId, Document};
 use crate::editor::hand::drawing_plane::{Leg, LegLocks};
 use crate::editor::hand::hand::Hand;
 use crate::editor::hand::tools::{
     Context, DrawSettings, Entry, ToolKind, Transformation, drawn_degree, pivot,
 };
 use crate::editor::hand::typed_point::{EntryError, read_number};
+use crate::editor::view::Look;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
@@ -46,6 +48,24 @@ impl Hand {
     pub fn leg(&self, context: &Context) -> Option<Leg> {
         let (from, to) = self.tools.used().leg(context);
         Some(Leg::between(from?, to?, &context.drawing_plane()))
+    }
+
+    /// Let the view follow a typed point. In an empty document the first two points of a drawing set the size of the
+    /// view.
+    pub(in crate::editor) fn look_at_typed(&self, context: &Context) -> Option<Look> {
+        let tool = self.tools.used();
+        let (_, point) = tool.leg(context);
+        let point = point.filter(|_| self.typed.is_some())?;
+        Some(match tool.drawn() {
+            [] if context.document.is_empty() => Look::Begin(vec![point]),
+            [first] if context.document.is_empty() => Look::Begin(vec![*first, point]),
+            _ => Look::Include(point),
+        })
+    }
+
+    /// Select a curve beside the active one, or take it back.
+    pub fn toggle_curve(&mut self, curve: CurveId, document: &Document) {
+        self.selection.toggle_curve(curve, document);
     }
 
     /// The locked length and angle of the leg, while a tool sets vertices.

@@ -207,7 +207,8 @@ impl Autosaving {
         urgent: bool,
     ) -> Option<FileError> {
         let autosaver = self.autosaver.as_ref()?;
-        let unsaved = workspace.is_settled_modified();
+        // Nothing of an empty document is worth recovering.
+        let unsaved = workspace.is_settled_modified() && !workspace.settled().is_empty();
         let state = State {
             unsaved: unsaved.then_some(workspace.revision()),
             path: workspace.path().map(Path::to_owned),

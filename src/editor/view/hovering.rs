@@ -8,7 +8,7 @@ use crate::editor::view::osculating_circle::OsculatingCircle;
 use crate::editor::view::overlay::{Closed, Hovering, Overlay};
 use crate::editor::view::scene::HoverScene;
 use crate::editor::view::sight::Sight;
-use crate::geometry::{coordinate, figure, significant};
+use crate::geometry::{coordinate, figure, radius_of, significant};
 
 impl Sight<'_> {
     /// Find what the pointer hovers, on the canvas or in a panel.
@@ -117,16 +117,19 @@ impl Sight<'_> {
         let is_smooth = reference.is_none_or(ReferenceAnalysis::is_smooth);
         let (planar, jet) = (samples.is_planar(), shape.jet(u));
         let curvature = jet.curvature_of(planar);
-        let radius = 1.0 / curvature.abs();
         let parameter = match reference {
             Some(it) => format!("t {:.4}", it.reference().curve.parameter(u)),
             None => format!("u {u:.4}"),
         };
         let mut lines = vec![parameter, self.coordinates(jet.point, !planar)];
         if is_smooth {
-            lines.push(format!("κ {}", figure(curvature)));
-            let radius = Some(radius).filter(|radius| radius.is_finite());
-            lines.push(format!("R {}", radius.map_or("∞".to_owned(), figure)));
+            let display = self.view.curvature_display;
+            if display.shows_curvature() {
+                lines.push(format!("κ {}", figure(curvature)));
+            }
+            if display.shows_radius() {
+                lines.push(format!("R {}", radius_of(curvature, 7)));
+            }
             let torsion = Some(jet.torsion()).filter(|torsion| !planar && torsion.is_finite());
             lines.extend(torsion.map(|torsion| format!("τ {}", figure(torsion))));
         }

@@ -3,6 +3,7 @@
 mod blocks;
 mod chain_outlines;
 pub(in crate::editor) mod comb;
+pub(in crate::editor) mod curvature_display;
 mod curve_outlines;
 mod density;
 mod distances;
@@ -40,6 +41,7 @@ mod whiskers;
 
 pub use chain_outlines::ChainOutlines;
 pub use comb::CombSettings;
+pub use curvature_display::CurvatureDisplay;
 pub use curve_outlines::{CurveOutlines, PieceTrend};
 pub use end_marks::EndFitMarks;
 pub use feature_report::{FeatureKind, FeatureMark, FeatureReport, FeatureRow};

@@ -13,6 +13,7 @@ use crate::editor::jobs::measuring::Measuring;
 use crate::editor::jobs::patience::Patience;
 use crate::editor::jobs::proving::Proving;
 use crate::editor::view::comb::CombSettings;
+use crate::editor::view::curvature_display::CurvatureDisplay;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::layers::Layers;
 use crate::editor::view::outlines::{Outlines, Sketch};
@@ -43,6 +44,8 @@ pub struct View {
     /// Whether bands of rising and falling curvature are shown only in the plot, and not on the canvas with the
     /// layer of features.
     pub bands_only_plotted: bool,
+    /// How curvatures are written.
+    pub curvature_display: CurvatureDisplay,
     pub(in crate::editor) comb: CombSettings,
     /// How distances of points that are fitted are drawn.
     pub whiskers: Whiskers,

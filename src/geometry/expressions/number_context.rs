@@ -44,7 +44,8 @@ impl NumberContext {
     /// where a comma directly in a function's brackets separates its arguments (`max(1,2)`); in a unit
     /// (`12mm`, `1/2in`, `30deg`, `0.5rad`), which is converted; or relative to the number before (`+=2`,
     /// `*=1.1`). Numbers without a unit are in the document's unit, angles in degrees; sines and the like of
-    /// numbers without a unit are those of radians.
+    /// numbers without a unit are those of radians. A curvature can be given by its radius: `R1652`, `r=1652`,
+    /// `-R 12cm` for a right turn.
     ///
     /// The result is finite: a length in the document's unit, an angle in degrees, anything else as it is.
     ///
@@ -102,6 +103,13 @@ impl NumberContext {
     }
 
     fn number(&self, text: &str, quantity: Quantity) -> Result<f64, ExpressionMistake> {
+        if quantity == Quantity::Curvature
+            && let Some((head, sign, radius)) = split_radius(text)
+        {
+            let radius = self.number(radius, Quantity::Length);
+            let radius = radius.map_err(|mistake| mistake.shifted(head.chars().count()))?;
+            return finite(sign / radius, text, radius == 0.0);
+        }
         let expression = Expression::read_number(&with_decimal_points(text))?;
         let is_length = matches!(quantity, Quantity::Length | Quantity::Curvature);
         // Where lengths make no sense, any unit tells so, or cancels.
@@ -134,6 +142,21 @@ impl NumberContext {
         };
         finite(value, text, expression.divides_by_zero())
     }
+}
+
+/// Split a curvature that is given by a radius, as `R1652` or `-r = 12mm`: what stands before the radius, the
+/// sign of the curvature, and the radius. `None` for other texts, names that begin with r among them.
+fn split_radius(text: &str) -> Option<(&str, f64, &str)> {
+    let unsigned = text.trim_start();
+    let negative = unsigned.strip_prefix(['-', '−']);
+    let named = negative.unwrap_or(unsigned).trim_start();
+    let rest = named.strip_prefix(['R', 'r'])?.trim_start();
+    let radius = rest.strip_prefix('=').unwrap_or(rest);
+    if radius.starts_with(char::is_alphabetic) {
+        return None;
+    }
+    let head = text.get(..text.len() - radius.len())?;
+    Some((head, negative.map_or(1.0, |_| -1.0), radius))
 }
 
 /// Check that a text has a finite value.
@@ -233,6 +256,16 @@ mod tests {
         ];
         assert_read(Quantity::Angle, &angles);
         assert_read(Quantity::Curvature, &[("1/(5cm)", 0.02), ("0.5", 0.5)]);
+        let radii = [
+            ("R1652", 1.0 / 1652.0),
+            ("r=1652", 1.0 / 1652.0),
+            (" r = 5cm", 0.02),
+            ("-R 8", -0.125),
+            ("R-8", -0.125),
+            ("1/1652", 1.0 / 1652.0),
+            ("+=R2", 10.5),
+        ];
+        assert_read(Quantity::Curvature, &radii);
         let parameters = [("180deg", std::f64::consts::PI), ("2", 2.0)];
         assert_read(Quantity::Parameter, &parameters);
     }
@@ -273,6 +306,10 @@ mod tests {
         assert_refused(Length, "2mm*3mm", 1, "an area is given where a length");
         assert_refused(Angle, "3mm", 1, "a length is given where an angle");
         assert_refused(Curvature, "3mm", 1, "where a curvature");
+        assert_refused(Curvature, "R=0", 1, "“R=0” divides by zero");
+        assert_refused(Curvature, "R 3deg", 3, "an angle is given where a length");
+        assert_refused(Curvature, "R2 + foo", 6, "“foo” means nothing here");
+        assert_refused(Length, "R3", 1, "“R3” means nothing here");
         assert_refused(Length, "1 + 2*3kg", 8, "“kg” is no unit here");
         assert_refused(
             Length,
@@ -339,6 +376,9 @@ mod tests {
             "max(1,", "1/0",
         ] {
             assert!(context(Quantity::Angle).is_begun(text), "{text}");
+        }
+        for text in ["R", "-r", "r=", "R1", "R 2c"] {
+            assert!(context(Quantity::Curvature).is_begun(text), "{text}");
         }
         for text in ["1x", "foo", "c*2", "2)", "1..", "3k"] {
             assert!(!context(Quantity::Angle).is_begun(text), "{text}");

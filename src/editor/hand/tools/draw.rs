@@ -180,7 +180,7 @@ impl DrawTool {
                 let said = format!("{vertices}, degree {degree}{more}");
                 let curve = Curve::new(name, polygon);
                 vec![
-                    Effect::Apply("Draw polygon".into(), vec![Edit::Add(Box::new(curve))]),
+                    Effect::Apply("Draw curve".into(), vec![Edit::Add(Box::new(curve))]),
                     Effect::Select(Vec::new()),
                     Effect::Activate(id),
                     Effect::Say(said),

@@ -140,8 +140,8 @@ static TOOLS: &[ToolRow] = &[
     row(ToolKind::Delete, 'x', "Delete vertex", "eraser")
         .help("Delete the vertices you click")
         .made_by(|| Box::new(DeleteTool)),
-    row(ToolKind::Draw, 'd', "Draw polygon", "waypoints")
-        .help("Draw a new float S-polygon, click by click")
+    row(ToolKind::Draw, 'd', "Draw curve", "waypoints")
+        .help("Draw a new curve by the vertices of its float S-polygon")
         .made_by(|| Box::new(DrawTool::default())),
     row(ToolKind::Rotate, 'r', "Rotate", "rotate-cw")
         .help("Rotate the selection about a movable pivot")

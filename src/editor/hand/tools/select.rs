@@ -192,8 +192,7 @@ impl Tool for SelectTool {
                 } else if context.document.is_empty() {
                     "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
                 } else {
-                    "Drag a vertex, or the curve itself; drag over empty space selects by a box"
-                        .into()
+                    "Drag a vertex or the curve; a box selects".into()
                 }
             }
         }
