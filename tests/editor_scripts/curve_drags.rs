@@ -73,7 +73,6 @@ fn a_point_of_the_curve_follows_the_pointer_in_one_step() {
         ("hull", 0.5),
     ] {
         let mut script = Script::example(name);
-        script.command(Command::ToggleSnapping);
         let before = script.polygon();
         let (_, at) = place_on_curve(&script, share);
         script.press(at);

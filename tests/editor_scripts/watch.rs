@@ -58,6 +58,8 @@ pub struct Watch {
     trying: bool,
     /// Whether a drag was going on.
     dragging: bool,
+    /// Whether a handle of an operation was dragged: Escape ends that first.
+    handle: bool,
     /// Whether undo would have taken back a point of what is not finished.
     unfinished: bool,
     /// The curve that was active.
@@ -94,6 +96,7 @@ impl Watch {
             field: false,
             trying: window.is_trying(),
             dragging: false,
+            handle: false,
             unfinished: false,
             active: window.active(),
         }
@@ -157,7 +160,12 @@ impl Watch {
         self.trying = window.is_trying();
         self.unfinished = window.undoes_points();
         self.active = window.active();
-        if done == Done::Escape && (self.dragging || window.is_in_gesture()) {
+        let drags_handle = window
+            .trial()
+            .is_some_and(OperationInProgress::drags_handle);
+        let ended_handle = std::mem::replace(&mut self.handle, drags_handle) && self.trying;
+        let goes_on = window.is_in_gesture() && !ended_handle;
+        if done == Done::Escape && (self.dragging || goes_on) {
             return Err("a gesture goes on after Escape".into());
         }
         if window.is_in_gesture() && !self.field && !self.dragging && !self.trying {
