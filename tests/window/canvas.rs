@@ -99,7 +99,7 @@ fn modes_of_dragging_are_chips_that_show_whether_they_are_on() {
         ("Live harmony", Command::Follow(Follow::InHarmony), false),
         ("Soft drag", Command::Follow(Follow::Softly), false),
         ("Keep features", Command::ToggleKeeping, false),
-        ("Snapping", Command::ToggleSnapping, true),
+        ("Snapping", Command::ToggleSnapping, false),
         ("Closed vertices follow", Command::ToggleClosedFollow, true),
     ] {
         let is_on = |window: &Window| {

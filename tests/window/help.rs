@@ -92,7 +92,7 @@ fn f1_in_an_open_menu_opens_the_page_of_the_operation_under_the_pointer() {
 fn links_and_search_lead_to_pages() {
     let mut window = open_window();
     choose(&mut window, &["Help", "Manual"]);
-    window.get_by_label_contains("Click eight times");
+    window.get_by_label_contains("Click a few times");
     choose_first(&mut window, "Proofs");
     assert!(
         window
