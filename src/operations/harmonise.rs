@@ -21,7 +21,9 @@ use crate::geometry::fairing::harmonising::{
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, rounded_up};
+use crate::geometry::{
+    BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, rounded_up,
+};
 
 /// How far the curve may move without a wish, by its size.
 const MOST_DEVIATION: f64 = 0.05;
@@ -289,10 +291,24 @@ fn raised(document: &Document, id: CurveId, end: End, chosen: Held) -> (Held, Op
     let required = of_target.max(of_match).filter(|held| *held > chosen);
     let remark = required.map(|held| {
         let word = LEVELS.iter().position(|it| *it == held);
-        let words = ["nothing", "position", "direction", "curvature", "slope", "all"];
+        let words = [
+            "nothing",
+            "position",
+            "direction",
+            "curvature",
+            "slope",
+            "all",
+        ];
         let word = word.map_or("all", |index| words[index]);
-        let from = if of_match >= of_target { "match" } else { "target" };
-        format!("The {} keeps its {word}, as its {from} requires", end.name())
+        let from = if of_match >= of_target {
+            "match"
+        } else {
+            "target"
+        };
+        format!(
+            "The {} keeps its {word}, as its {from} requires",
+            end.name()
+        )
     });
     (required.unwrap_or(chosen), remark)
 }

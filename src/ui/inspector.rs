@@ -19,8 +19,8 @@ use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
 use crate::document::{Curve, CurveId, Edit, Reference};
 use crate::editor::{Command, CurvatureDisplay, CurveReport, Editor, told};
-use crate::geometry::expressions::LengthUnit;
 use crate::geometry::MAX_DEGREE;
+use crate::geometry::expressions::LengthUnit;
 use crate::operations::{Value, reinterpret_degree};
 
 /// The inspector's own state.
