@@ -1,5 +1,7 @@
 //! The proved features and the harmony of curves, before an operation and afterwards.
 
+use std::collections::BTreeSet;
+
 use eframe::egui::{Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::steady_rows::SteadyRows;
@@ -16,12 +18,15 @@ pub const OUTDATED: f32 = 0.5;
 /// The width of a column of figures.
 const COLUMN: f32 = 96.0;
 
+/// The most characters of a figure in a column.
+const FITTING: usize = 9;
+
 /// The features before and after an operation: rows keep their places.
 #[derive(Default)]
 pub struct Comparison {
     rows: SteadyRows,
-    /// Whether figures take a line of their own, as those of several curves do.
-    is_wide: bool,
+    /// The rows whose figures have taken a line of their own, as long ones of several curves do.
+    wide: BTreeSet<&'static str>,
 }
 
 impl Comparison {
@@ -35,11 +40,14 @@ impl Comparison {
             ui.multiply_opacity(OUTDATED);
         }
         let (before, after) = (&features.before, &features.after);
-        self.is_wide |= before.len().max(after.len()) > 1;
         before_after_ui(ui, "", ["before", "after"], false);
         for (name, texts) in self.rows.in_place(rows(before, after)) {
             let texts = texts.unwrap_or_else(|| ["–".to_owned(), "–".to_owned()]);
-            before_after_ui(ui, name, [&texts[0], &texts[1]], self.is_wide);
+            if texts.iter().any(|text| text.chars().count() > FITTING) {
+                self.wide.insert(name);
+            }
+            let is_wide = self.wide.contains(name);
+            before_after_ui(ui, name, [&texts[0], &texts[1]], is_wide);
         }
     }
 }
