@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    self, Align, Align2, Area, Color32, ComboBox, Context, FontId, Galley, Id, InnerResponse,
-    Layout, Modal, Order, Pos2, Rect, RectAlign, Response, RichText, Role, ScrollArea, Sense,
-    Stroke, StrokeKind, Tooltip, Ui, UiBuilder, Vec2, WidgetInfo, text::LayoutJob,
+    self, Align, Align2, Area, Color32, ComboBox, Context, EventFilter, FontId, Galley, Id,
+    InnerResponse, Key, Layout, Modal, Modifiers, Order, Pos2, Rect, RectAlign, Response, RichText,
+    Role, ScrollArea, Sense, Stroke, StrokeKind, Tooltip, Ui, UiBuilder, Vec2, WidgetInfo,
+    text::LayoutJob,
 };
 use lucide_icons::Icon;
 
@@ -149,7 +150,8 @@ pub fn overlay<R>(
     area.show(context, contents)
 }
 
-/// Show a list that opens, by its name for screen readers; returns another value that is chosen in it.
+/// Show a list that opens, by its name for screen readers; returns another value that is chosen in it, or by the arrow
+/// keys up and down while it has the keyboard.
 pub fn drop_down<T: PartialEq>(
     ui: &mut Ui,
     name: &str,
@@ -157,20 +159,47 @@ pub fn drop_down<T: PartialEq>(
     chosen: &T,
     all: impl IntoIterator<Item = (T, String)>,
 ) -> (Option<T>, Response) {
-    let all: Vec<(T, String)> = all.into_iter().collect();
-    let shown = all.iter().find(|(value, _)| value == chosen);
-    let shown = shown.map_or("", |(_, text)| text).to_owned();
-    let list = ComboBox::from_id_salt(name).selected_text(shown);
+    let mut all: Vec<(T, String)> = all.into_iter().collect();
+    let shown = all.iter().position(|(value, _)| value == chosen);
+    let text = shown.map_or("", |shown| &all[shown].1).to_owned();
+    let list = ComboBox::from_id_salt(name).selected_text(text);
     let mut other = None;
     let list = list.width(width).truncate().show_ui(ui, |ui| {
-        for (value, text) in all {
-            let is_chosen = value == *chosen;
-            if ui.selectable_label(is_chosen, text).clicked() && !is_chosen {
-                other = Some(value);
+        for (index, (_, text)) in all.iter().enumerate() {
+            let is_chosen = shown == Some(index);
+            if ui.selectable_label(is_chosen, text).clicked() {
+                other = Some(index);
             }
         }
     });
-    (other, list.response.accessible_name(name))
+    let response = list.response.accessible_name(name);
+    if response.clicked() {
+        response.request_focus();
+    }
+    let stepped = stepped_by_arrows(ui, &response, shown, all.len());
+    let other = other.or(stepped).filter(|other| shown != Some(*other));
+    (other.map(|other| all.swap_remove(other).0), response)
+}
+
+/// The place to which the arrow keys go from another one in a list that has the keyboard.
+fn stepped_by_arrows(ui: &Ui, list: &Response, from: Option<usize>, count: usize) -> Option<usize> {
+    if !list.has_focus() {
+        return None;
+    }
+    let filter = EventFilter {
+        vertical_arrows: true,
+        ..EventFilter::default()
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(list.id, filter));
+    let mut pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+    let [up, down] = [Key::ArrowUp, Key::ArrowDown].map(&mut pressed);
+    let place = match (from, up, down) {
+        (Some(from), true, _) => from.saturating_sub(1),
+        (Some(from), _, true) => from + 1,
+        (None, _, true) => 0,
+        _ => return None,
+    };
+    (place < count).then_some(place)
 }
 
 /// Paint a colour as a small square.

@@ -3,6 +3,7 @@
 use batten::document::{Curve, Document};
 use batten::editor::Editor;
 use batten::geometry::{Continuity, End, FloatPolygon};
+use batten::operations::Value;
 use eframe::egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use glam::DVec3;
@@ -389,4 +390,32 @@ fn features_of_both_curves_are_told_with_their_parameters() {
     let rows = window.query_all_by_label_contains("curvature level 1: ");
     assert!(rows.count() > 1);
     assert!(window.query_all_by_label_contains(" at t = ").count() > 0);
+}
+
+#[test]
+fn arrow_keys_choose_in_a_drop_down() {
+    let (mut window, _) = trying("Harmonise");
+    let chosen = |window: &Window| {
+        let operation = window.state().editor().operation().expect("an operation");
+        let mut parameters = operation.operation().parameters.iter();
+        let keep = parameters
+            .find(|it| it.name == "keep")
+            .expect("a parameter");
+        operation.values().get(keep).clone()
+    };
+    assert_eq!(chosen(&window), Value::Choice(2));
+    window.get_by_label("Keep ends").focus();
+    window.run();
+    for (key, expected) in [
+        (Key::ArrowDown, 3),
+        (Key::ArrowDown, 4),
+        (Key::ArrowUp, 3),
+        (Key::ArrowUp, 2),
+        (Key::ArrowUp, 1),
+        (Key::ArrowUp, 0),
+        (Key::ArrowUp, 0),
+    ] {
+        press(&mut window, Modifiers::NONE, key);
+        assert_eq!(chosen(&window), Value::Choice(expected), "{key:?}");
+    }
 }
