@@ -1,22 +1,20 @@
 //! Curves that an operation turns over.
 
-use std::f64::consts::PI;
-
 use crate::geometry::features::Turning;
 use crate::geometry::{FloatPolygon, curve_crossing, significant};
 
-/// Say that a planar polynomial curve turns by more than half a turn more or less than before: it has a loop, or is
-/// inside out. `None` where it only lost a loop.
+/// Say that a planar polynomial curve turns by whole turns more or less than before, beyond what its ends turn: it has
+/// a loop, or is inside out. `None` where it only lost a loop.
 pub(super) fn turned_over(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
     let both = [before, after];
     if both.iter().any(|it| !it.is_planar() || it.is_rational()) {
         return None;
     }
-    let [old, new] = both.map(|polygon| Turning::new(polygon).total());
-    let turns_over = (new - old).abs() > PI;
+    let [old, new] = both.map(Turning::new);
+    let turns_over = new.rounds_since(&old) != 0;
     let lost_loop = || curve_crossing(before).is_some() && curve_crossing(after).is_none();
     (turns_over && !lost_loop()).then(|| {
-        let [old, new] = [old, new].map(|angle| significant(angle.to_degrees(), 3));
+        let [old, new] = [old, new].map(|it| significant(it.total().to_degrees(), 3));
         format!("The curve turns by {new}° in all, before by {old}°")
     })
 }

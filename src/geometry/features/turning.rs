@@ -1,5 +1,7 @@
 //! How far the direction of a planar curve turns.
 
+use std::f64::consts::TAU;
+
 use glam::DVec2;
 
 use crate::geometry::conversion::segment_bezier;
@@ -55,6 +57,16 @@ impl<'a> Turning<'a> {
         self.end - self.begin()
     }
 
+    /// Count by how many whole turns a planar curve turns more than another one, beyond what its ends turn, each the
+    /// shorter way: 0 where one bends into the other without a loop.
+    pub fn rounds_since(&self, before: &Self) -> i64 {
+        let [old, new] = [before, self];
+        let ends = angle(old.last, new.last) - angle(old.first(), new.first());
+        let rounds = (new.total() - old.total() - ends) / TAU;
+        // Directions are followed to rounding: this is a whole number but for that.
+        rounds.round() as i64
+    }
+
     /// The angle of the direction at a parameter, in radians; that at u = 0 is its angle to the x axis. A periodic
     /// curve goes on beyond its last parameter.
     pub fn angle(&self, u: f64) -> f64 {
@@ -69,6 +81,10 @@ impl<'a> Turning<'a> {
         let part = self.parts.get(behind.saturating_sub(1));
         let angle = part.map_or(0.0, |part| part.angle + angle(part.direction, direction));
         angle + rounds * self.total()
+    }
+
+    fn first(&self) -> DVec2 {
+        self.parts.first().map_or(DVec2::X, |part| part.direction)
     }
 
     fn begin(&self) -> f64 {
