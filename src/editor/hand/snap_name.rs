@@ -18,7 +18,7 @@ pub fn snap_name(tool: ToolKind, context: &Context) -> Option<Mark> {
     let snap = match tool {
         // The measure tool snaps without the switch.
         ToolKind::Measure if context.modifiers.ctrl => None,
-        ToolKind::Measure => context.snap_to_point(at, &carried),
+        ToolKind::Measure => context.object_snap(at, &carried),
         _ => context.snap(at, &carried),
     }?;
     Some(Mark::Name(context.viewport.flatten(snap.point), snap.name))

@@ -63,7 +63,7 @@ impl MeasureTool {
         if context.modifiers.ctrl {
             return free(view.grounded(at));
         }
-        if let Some(snap) = context.snap_to_point(at, &Carried::default()) {
+        if let Some(snap) = context.object_snap(at, &Carried::default()) {
             return Place::new(snap.point, context);
         }
         let hit = context.hits.curve(view.to_screen(at));

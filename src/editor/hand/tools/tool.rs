@@ -283,7 +283,7 @@ impl Context<'_> {
     /// The snap of a place of the view plane, if snapping is on and something is near.
     pub fn snap(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
         let near = || {
-            self.snap_to_point(place, carried)
+            self.object_snap(place, carried)
                 .or_else(|| self.on_reference(place, carried))
                 .or_else(|| self.on_grid(place, carried))
         };
@@ -296,7 +296,7 @@ impl Context<'_> {
     }
 
     /// The point or the intersection nearest to a place of the view plane, if one is near.
-    pub fn snap_to_point(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
+    pub fn object_snap(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
         let point = snapping::snap_to_point(place, self.before, carried, self.viewport);
         let takes = |id| !carried.takes_along(id);
         let intersection = self
