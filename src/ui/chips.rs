@@ -20,7 +20,15 @@ const CHIPS: [Chip; 5] = [
 ];
 
 /// The width that all chips take, with the space between them.
-pub const WIDTH: f32 = 226.0 + 5.0 * STEP + 4.0 * STEP;
+pub const WIDTH: f32 = {
+    let (mut sum, mut chip) = (0.0, 0);
+    while chip < CHIPS.len() {
+        sum += CHIPS[chip].2 + STEP;
+        chip += 1;
+    }
+    // And to the cells beside them.
+    sum + 4.0 * STEP
+};
 
 /// Show the chips, flush right; a click switches.
 pub fn chips_ui(ui: &mut Ui, editor: &Editor, actions: &mut Vec<Action>) {
