@@ -28,7 +28,7 @@ use crate::geometry::{
 /// How far the curve may move without a wish, by its size.
 const MOST_DEVIATION: f64 = 0.05;
 
-const STANDING_OUT: Meaning = |_| "prominent ones (automatic)";
+const PROMINENT: Meaning = |_| "prominent ones (automatic)";
 
 const FREE: Choice = Choice::new("free", "Free");
 const POSITION: Choice = Choice::new("position", "Position");
@@ -43,12 +43,15 @@ const KEEP: Parameter = Parameter {
     label: "Keep ends",
     help: "Conditions that the ends keep; all derivatives: the curve beyond a stretch stays",
     kind: Kind::Choice {
-        options: &[FREE, POSITION, DIRECTION, CURVATURE, SLOPE, ALL],
+        options: &NAMED,
         default: 2,
     },
 };
 
-/// The meanings of the options of [`KEEP`].
+/// The options of [`KEEP`].
+const NAMED: [Choice; 6] = [FREE, POSITION, DIRECTION, CURVATURE, SLOPE, ALL];
+
+/// Their meanings.
 const LEVELS: [Held; 6] = [
     Held::Free,
     Held::Position,
@@ -96,22 +99,22 @@ const STRETCH: Parameter = Parameter {
 const EXTREMA: Parameter = Parameter {
     name: "extrema",
     label: "Curvature extrema",
-    help: "Curvature extrema that remain; those that differ by 5 % of their neighbours stand out",
-    kind: Kind::optional_count(usize::MAX, false, STANDING_OUT),
+    help: "Curvature extrema that remain; prominent ones differ by 5 % from their neighbours",
+    kind: Kind::optional_count(usize::MAX, false, PROMINENT),
 };
 
 const INFLECTIONS: Parameter = Parameter {
     name: "inflections",
     label: "Inflections",
     help: "How many inflections are to be left; of a curve in space, zeros of the torsion",
-    kind: Kind::optional_count(usize::MAX, false, STANDING_OUT),
+    kind: Kind::optional_count(usize::MAX, false, PROMINENT),
 };
 
 const TORSION_EXTREMA: Parameter = Parameter {
     name: "torsion-extrema",
     label: "Torsion extrema",
     help: "How many extrema of the torsion of a curve in space are to be left",
-    kind: Kind::optional_count(usize::MAX, true, STANDING_OUT),
+    kind: Kind::optional_count(usize::MAX, true, PROMINENT),
 };
 
 const MAX_DEVIATION: Parameter = Parameter {
@@ -230,8 +233,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     }
     if found.reached {
         outcome.remarks.extend(remark_on_lost(&found));
-        let lost = follows(&curve.polygon, &progress) == Some(true)
-            && follows(&found.polygon, &progress) == Some(false);
+        let lost = follows(&found.polygon, &progress) == Some(false)
+            && follows(&curve.polygon, &progress) == Some(true);
         outcome.remarks.extend(lost.then(|| {
             "No result was found whose discrete curvature follows the curve: refine, or allow more extrema"
                 .to_owned()
@@ -290,16 +293,11 @@ fn raised(document: &Document, id: CurveId, end: End, chosen: Held) -> (Held, Op
     });
     let required = of_target.max(of_match).filter(|held| *held > chosen);
     let remark = required.map(|held| {
-        let word = LEVELS.iter().position(|it| *it == held);
-        let words = [
-            "nothing",
-            "position",
-            "direction",
-            "curvature",
-            "slope",
-            "all",
-        ];
-        let word = word.map_or("all", |index| words[index]);
+        let mut named = LEVELS.iter().zip(NAMED);
+        let word = named.find(|(level, _)| **level == held);
+        let word = word
+            .map_or(ALL.label, |(_, choice)| choice.label)
+            .to_lowercase();
         let from = if of_match >= of_target {
             "match"
         } else {
@@ -322,7 +320,7 @@ fn one_end() -> [Option<Held>; 7] {
     meanings
 }
 
-/// Say how many of the features that stand out are left, if not all of them.
+/// Say how many of the prominent features are left, if not all of them.
 fn remark_on_lost(found: &Harmonised) -> Option<String> {
     let (has, asked) = (found.counts, found.request);
     let counts = [
@@ -335,11 +333,11 @@ fn remark_on_lost(found: &Harmonised) -> Option<String> {
         ),
     ];
     let lost = counts.into_iter().filter(|(has, asked, _)| has < asked);
-    let lost = lost.map(|(has, asked, name)| format!("{has} of the {asked} {name}"));
+    let lost = lost.map(|(has, asked, name)| format!("{has} of the {asked} prominent {name}"));
     let lost: Vec<String> = lost.collect();
     (!lost.is_empty()).then(|| {
         let lost = lost.join(" and ");
-        format!("{lost} that stand out are left: ask for a number to keep more")
+        format!("{lost} are left: ask for a number to keep more")
     })
 }
 

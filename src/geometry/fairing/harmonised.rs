@@ -140,12 +140,6 @@ impl Harmonised {
         self.counts.lacking(self.request)
     }
 
-    /// Whether the discrete curvature of the polygon has the extrema and inflections of its curve, in their order;
-    /// `None` if the computation was cancelled.
-    pub fn follows(&self, progress: &Progress) -> Option<bool> {
-        follows(&self.polygon, progress)
-    }
-
     /// Measure how far the curve is from the one that it was.
     pub(super) fn measure(&mut self, polygon: &FloatPolygon, progress: &Progress) {
         let measured = MeasuredDeviation::between(&self.polygon, polygon, progress);

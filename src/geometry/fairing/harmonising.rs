@@ -89,7 +89,7 @@ fn chosen(mut candidates: Vec<Harmonised>, progress: &Progress) -> Option<Harmon
         return Some(nearest);
     }
     let mut near = candidates.iter().filter(is_near);
-    let following = near.find(|it| it.follows(progress) == Some(true));
+    let following = near.find(|it| follows(&it.polygon, progress) == Some(true));
     Some(following.cloned().unwrap_or(nearest))
 }
 
