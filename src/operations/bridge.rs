@@ -6,6 +6,7 @@ use super::parameter::{Kind, Parameter};
 use super::value::Value;
 use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, largest_jump};
 use crate::geometry::parameters::Quantity;
+use crate::geometry::significant;
 
 /// How many vertices a bridge has.
 pub(super) const BRIDGE: Parameter = Parameter {
@@ -48,18 +49,31 @@ pub(super) fn figures(found: &Bridged) -> Vec<Figure> {
             found.counts.inflections,
         ),
         Figure::count("iterations", "Iterations", found.iterations),
+        Figure::length("bridge_length", "Length of the bridge", found.length),
     ]
 }
 
-/// Say what could not be proved.
+/// Say that segments were halved, and what could not be proved.
 pub(super) fn remarks(found: &Bridged) -> Vec<String> {
+    let halved = (found.halvings > 0).then(|| {
+        let pieces = 1_usize << found.halvings;
+        format!(
+            "Each segment became {pieces}, so that the bridge fits into the gap; the curves stay"
+        )
+    });
     let undecided = (found.undecided > 0).then(|| {
         format!(
             "Features of the bridge that could not be decided: {}",
             found.undecided
         )
     });
-    undecided.into_iter().collect()
+    halved.into_iter().chain(undecided).collect()
+}
+
+/// Say that a bridge goes a long way round, if it does.
+pub(super) fn detour(found: &Bridged) -> Option<String> {
+    let [length, gap] = [found.length, found.gap].map(|it| significant(it, 3));
+    (found.is_long).then(|| format!("A bridge is {length} long, the gap {gap}"))
 }
 
 /// Annotation the vertices of a bridge.

@@ -1,6 +1,6 @@
 //! A curve whose ends are joined, so that it is periodic.
 
-use super::bridge::{BRIDGE, annotations, figures, found, joint, remarks};
+use super::bridge::{BRIDGE, annotations, detour, figures, found, joint, remarks};
 use super::editable::open;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -12,6 +12,7 @@ use super::outcome::{Deviation, Outcome};
 use super::values::Values;
 use crate::document::{Edit, ParameterSpan};
 use crate::geometry::fairing::bridging::close;
+use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{End, Progress};
 
 /// The operation: its description, and how it is checked and run.
@@ -45,14 +46,24 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         edits.extend(target);
     }
     let polygon = found.polygon.clone();
-    let whole = [0.0, curve.polygon.segments() as f64];
-    let span = vec![ParameterSpan::shifted(whole, 0.0)];
-    let mut outcome = Outcome::renumbered(input, polygon, span, Deviation::Exact)?;
+    let segments = curve.polygon.segments();
+    let span = ParameterSpan {
+        old: [0.0, segments as f64],
+        new: [0.0, (segments << found.halvings) as f64],
+    };
+    let mut outcome = Outcome::renumbered(input, polygon, vec![span], Deviation::Exact)?;
     edits.append(&mut outcome.edits);
     outcome.edits = edits;
     outcome.renumbered = false;
     outcome.figures = figures(&found);
     outcome.remarks.extend(remarks(&found));
+    if let Some(detour) = detour(&found) {
+        let failed = Requirement::Failed { left: None };
+        outcome.requirements = vec![(id, vec![failed])];
+        outcome
+            .remarks
+            .push(format!("{detour}: move the ends apart"));
+    }
     outcome.annotations = annotations(&found);
     outcome.joint = Some(joint(&found));
     Ok(outcome)

@@ -1,6 +1,7 @@
 //! Two curves that became one: where their vertices, ends, locks and matches go.
 
 use super::error::OperationError;
+use super::locks::halved;
 use super::matches::{handed_over, without_match};
 use crate::document::{
     Curve, CurveId, Document, Edit, EditError, EndMatch, MatchPlace, ParameterSpan, Renumbering,
@@ -30,6 +31,8 @@ pub(super) struct Composite<'a> {
     pub(super) polygon: &'a FloatPolygon,
     /// The second part in its direction and degree, where it was.
     pub(super) second: &'a FloatPolygon,
+    /// How often the segments of both parts were halved.
+    pub(super) halvings: usize,
     /// Where points of both parts, the second in its direction, are on the composite; `None` where it has the
     /// vertices of both.
     pub(super) tracks: Option<&'a [Track; 2]>,
@@ -42,12 +45,18 @@ impl Composite<'_> {
         if self.tracks.is_some() {
             return [0; 2];
         }
+        let length = |part: &FloatPolygon| (part.segments() << self.halvings) + part.degree();
         let count = self.polygon.vertices().len();
         if self.layout.follows {
-            [0, count - self.second.vertices().len()]
+            [0, count - length(self.second)]
         } else {
-            [count - self.parts[0].1.polygon.vertices().len(), 0]
+            [count - length(&self.parts[0].1.polygon), 0]
         }
+    }
+
+    /// By how much parameters run faster on the composite.
+    fn pace(&self) -> f64 {
+        (1_usize << self.halvings) as f64
     }
 
     /// Where a parameter of a part, the second in its direction, is on the composite.
@@ -55,7 +64,7 @@ impl Composite<'_> {
         let is_first = (part == 0) == self.layout.follows;
         match self.tracks {
             Some(tracks) => tracks[usize::from(!is_first)].at(u),
-            None => self.offsets()[part] as f64 + u,
+            None => self.offsets()[part] as f64 + self.pace() * u,
         }
     }
 
@@ -79,21 +88,18 @@ impl Composite<'_> {
             edits.extend(without_match(self.document, other, end));
         }
         let locked = &first.locked_vertices;
-        let locked = locked.renumbered(|vertex| Some(first_offset + vertex));
+        let halved = |polygon: &FloatPolygon, vertex| halved(polygon, self.halvings, vertex);
+        let locked =
+            locked.renumbered(|vertex| Some(first_offset + halved(&first.polygon, vertex)));
         let segments = first.polygon.segments();
+        let span = |old: [usize; 2]| {
+            let old = old.map(|u| u as f64);
+            let new = old.map(|u| self.place(0, u));
+            ParameterSpan { old, new }
+        };
         let spans = match self.tracks {
-            Some(_) => {
-                let span = |segment: usize| {
-                    let old = [segment, segment + 1].map(|u| u as f64);
-                    let new = old.map(|u| self.place(0, u));
-                    ParameterSpan { old, new }
-                };
-                (0..segments).map(span).collect()
-            }
-            None => vec![ParameterSpan::shifted(
-                [0.0, segments as f64],
-                first_offset as f64,
-            )],
+            Some(_) => (0..segments).map(|it| span([it, it + 1])).collect(),
+            None => vec![span([0, segments])],
         };
         let inside = self.place(0, joined.parameter(&first.polygon));
         edits.push(Edit::Renumber {
@@ -104,7 +110,9 @@ impl Composite<'_> {
                 .with_end(joined, MatchPlace::Parameter(inside)),
         });
         let kept = second.locked_vertices.carried(&second.polygon, self.second);
-        let kept: Vec<usize> = kept.iter().map(|vertex| second_offset + vertex).collect();
+        let kept = kept.iter();
+        let kept = kept.map(|vertex| second_offset + halved(self.second, vertex));
+        let kept: Vec<usize> = kept.collect();
         if !kept.is_empty() {
             edits.push(Edit::SetVerticesLocked {
                 curve: id,

@@ -1,6 +1,6 @@
 //! Two curves joined: merged into one, bridged, or chained by a match.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::time::Duration;
 
 use glam::DVec3;
@@ -21,12 +21,10 @@ use super::targets::place_of;
 use super::values::Values;
 use crate::document::{Edit, EndMatch, MatchPlace};
 use crate::geometry::end_correction::EndTarget;
-use crate::geometry::fairing::bridging::{Bridge, Bridged, join};
+use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::merging::{Joint, MergeError, Merged, Track, merge};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::{
-    BezierPolygon, Continuity, End, FloatPolygon, Progress, arc_length_between, significant,
-};
+use crate::geometry::{BezierPolygon, Continuity, End, FloatPolygon, Progress, significant};
 
 const METHOD: Parameter = Parameter {
     name: "method",
@@ -75,26 +73,33 @@ const WITHIN: f64 = 1e-4;
 const CONTINUITY: Parameter = Parameter {
     name: "continuity",
     label: "Chain up to",
-    help: "How the second curve of a chain continues the first",
+    help: "How the second curve continues the first; automatic: G1, at corners above 10° G0",
     kind: Kind::Choice {
         options: &[
+            Choice::new("automatic", "Automatic"),
             Choice::new("G0", "G0 (point)"),
             Choice::new("G1", "G1 (tangent)"),
             Choice::new("G2", "G2 (curvature)"),
             Choice::new("G3", "G3 (curvature slope)"),
         ],
-        default: 1,
+        default: 0,
     },
 };
 
-/// A bridge longer than so many times the gap and the legs beside it goes a long way round.
-const LONG: f64 = 3.0;
+/// The meanings of the options of [`CONTINUITY`].
+const CONTINUITIES: [Option<Continuity>; 5] = [
+    None,
+    Some(Continuity::G0),
+    Some(Continuity::G1),
+    Some(Continuity::G2),
+    Some(Continuity::G3),
+];
 
-/// A gap of at most this share of the size of both curves is closed by merging where a bridge goes a long way round.
+/// Ends that meet at a larger angle than this, in radians, are meant to: 10°.
+const CORNER: f64 = 10.0 * PI / 180.0;
+
+/// A gap of at most this share of the size of both curves is closed by merging where a bridge does not fit into it.
 const SMALL: f64 = 0.03;
-
-/// The relative error of a bridge's length.
-const LENGTH: f64 = 1e-3;
 
 /// The time that a merged curve is looked for.
 const MERGING: Duration = Duration::from_secs(10);
@@ -210,7 +215,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let implied = moves || given_count(values, &BRIDGE).is_some();
     match asked.or(implied.then_some(Method::Bridge)) {
         Some(Method::Merge) => joining.merged(joining.tolerance),
-        Some(Method::Bridge) => joining.bridged(),
+        Some(Method::Bridge) => joining.bridge().map(|(outcome, _)| outcome),
         Some(Method::Chain) => joining.chained(),
         None => joining.best(),
     }
@@ -232,7 +237,8 @@ struct Joining<'a> {
 impl Joining<'_> {
     /// Merge curves that meet smoothly, chain those that meet at a corner, bridge a gap.
     ///
-    /// Where a bridge would go a long way round, a merged curve closes the gap, if there is one.
+    /// Where the gap is too short for a bridge between the segments as they are, a merged curve closes it, if there is
+    /// one, or else a bridge between finer segments, or a chain.
     fn best(&self) -> Result<Outcome, OperationError> {
         let second = self.second();
         let [left, right] = self.in_order(&self.parts[0].1.polygon, &second);
@@ -249,27 +255,21 @@ impl Joining<'_> {
             Err(MergeError::Apart { distance, .. }) => distance,
             Err(_) => return self.chained(),
         };
-        let (mut bridged, detour) = self.bridge()?;
-        let Some(detour) = detour else {
-            return Ok(bridged);
-        };
-        if gap > SMALL * self.size {
-            bridged.remarks.push(advice(&detour));
+        let (bridged, fits) = self.bridge()?;
+        if fits || gap > SMALL * self.size {
             return Ok(bridged);
         }
         // A hair more, so that rounding does not leave the ends apart.
         match self.merged(gap * (1.0 + MET)) {
             Ok(mut merged) => {
-                merged.remarks.push(format!(
-                    "{detour}: merged within the gap instead; Bridge keeps both curves"
-                ));
+                merged.remarks.push(
+                    "Merged within the gap, which is short; Bridge keeps both curves".to_owned(),
+                );
                 Ok(merged)
             }
             Err(OperationError::Cancelled) => Err(OperationError::Cancelled),
-            Err(_) => {
-                bridged.remarks.push(advice(&detour));
-                Ok(bridged)
-            }
+            Err(_) if bridged.requirements.is_empty() => Ok(bridged),
+            Err(_) => self.chained(),
         }
     }
 
@@ -353,14 +353,8 @@ impl Joining<'_> {
         Ok(outcome)
     }
 
-    fn bridged(&self) -> Result<Outcome, OperationError> {
-        let (mut outcome, detour) = self.bridge()?;
-        outcome.remarks.extend(detour.as_deref().map(advice));
-        Ok(outcome)
-    }
-
-    /// Join by a bridge; says if it goes a long way round.
-    fn bridge(&self) -> Result<(Outcome, Option<String>), OperationError> {
+    /// Join by a bridge, which is not reached if it goes a long way round; says whether the parts fit it as they are.
+    fn bridge(&self) -> Result<(Outcome, bool), OperationError> {
         let [(_, first), (_, second)] = self.parts;
         let moves = self.values.switch(&MOVE_SECOND);
         if moves {
@@ -385,7 +379,10 @@ impl Joining<'_> {
             bridge::found(join(&first, &part, &wanted, self.progress))?.reversed()
         };
         let mut outcome = Outcome::unchanged(deviation);
-        let composite = self.composite(&found.polygon, &part, None);
+        let composite = Composite {
+            halvings: found.halvings,
+            ..self.composite(&found.polygon, &part, None)
+        };
         let moved = moves.then(|| composite.farthest_move());
         self.compose(&composite, &mut outcome)?;
         outcome.figures = self.method("bridge").into();
@@ -399,34 +396,33 @@ impl Joining<'_> {
                 "The first curve stays, the second moves by up to {moved}"
             ));
         }
-        let [left, right] = self.in_order(&first.polygon, &part);
-        let length = bridge_length(&found, left, right);
-        outcome.figures.push(Figure::length(
-            "bridge_length",
-            "Length of the bridge",
-            length,
-        ));
         outcome.remarks.extend(bridge::remarks(&found));
         outcome.remarks.extend(locks::lost(second, &[&part]));
         outcome.annotations = annotations(&found);
         outcome.joint = Some(joint(&found));
-        let gap = left
-            .end_jet(End::Finish)
-            .point
-            .distance(right.end_jet(End::Start).point);
-        let is_long = !moves && length > LONG * gap + legs_beside(left, right);
-        let detour = is_long.then(|| {
-            let [length, gap] = [length, gap].map(|it| significant(it, 3));
-            format!("A bridge is {length} long, the gap {gap}")
-        });
-        Ok((outcome, detour))
+        if let Some(detour) = bridge::detour(&found) {
+            let failed = Requirement::Failed { left: None };
+            outcome.requirements = vec![(self.parts[0].0, vec![failed])];
+            outcome
+                .remarks
+                .push(format!("{detour}: Merge or Chain, or move the ends apart"));
+        }
+        Ok((outcome, found.halvings == 0 && !found.is_long))
     }
 
     /// Let the second curve follow the end of the first.
     fn chained(&self) -> Result<Outcome, OperationError> {
         let [(id, first), (other, second)] = self.parts;
         let [source_end, end] = self.ends;
-        let continuity = self.values.choice(&CONTINUITY, &Continuity::ALL);
+        let asked = self.values.choice(&CONTINUITY, &CONTINUITIES);
+        let continuity = asked.unwrap_or_else(|| {
+            let second = self.second();
+            let [left, right] = self.in_order(&first.polygon, &second);
+            match Joint::between(left, right).angle <= CORNER {
+                true => Continuity::G1,
+                false => Continuity::G0,
+            }
+        });
         let edit = Edit::SetMatch(EndMatch {
             curve: other,
             end,
@@ -459,8 +455,9 @@ impl Joining<'_> {
         ));
         outcome.remarks = dropped;
         outcome.remarks.push(format!(
-            "Both stay curves; the second follows the first up to {}",
-            continuity.name()
+            "Both stay curves; the second follows the first up to {} and moves by at most {}",
+            continuity.name(),
+            significant(moved, 3)
         ));
         Ok(outcome)
     }
@@ -478,6 +475,7 @@ impl Joining<'_> {
             layout: self.layout,
             polygon,
             second,
+            halvings: 0,
             tracks,
         }
     }
@@ -497,28 +495,6 @@ impl Joining<'_> {
         outcome.remarks.extend(dropped);
         Ok(())
     }
-}
-
-fn advice(detour: &str) -> String {
-    format!("{detour}: Merge or Chain, or move the ends apart")
-}
-
-/// The length of the curve between two parts.
-fn bridge_length(found: &Bridged, left: &FloatPolygon, right: &FloatPolygon) -> f64 {
-    let count = found.polygon.vertices().len();
-    let from = left.segments() as f64;
-    let to = (count - right.vertices().len()) as f64;
-    arc_length_between(&found.polygon, from, to, LENGTH)
-}
-
-/// The lengths of the legs beside the joint, together.
-fn legs_beside(left: &FloatPolygon, right: &FloatPolygon) -> f64 {
-    let leg = |vertices: &[DVec3]| match vertices {
-        [a, b] => a.distance(*b),
-        _ => 0.0,
-    };
-    let [before, after] = [left, right].map(|it| it.vertices());
-    leg(&before[before.len().saturating_sub(2)..]) + leg(&after[..after.len().min(2)])
 }
 
 /// The ends that are joined: those that are given, and of the others those that lie closest. Of pairs as

@@ -22,3 +22,23 @@ pub(super) fn lost(curve: &Curve, parts: &[&FloatPolygon]) -> Option<String> {
         )),
     }
 }
+
+/// Remark on locks where segments are halved.
+pub(super) const LOCKS_HALVED: &str =
+    "Locks go to the vertices that stand in the same places along the curve";
+
+/// The vertex that takes the place of one after segments were halved so often: the one with the Greville abscissa
+/// that is nearest to its own, now that u counts more segments. Vertex i stands at i − (n − 1)/2.
+pub(super) fn halved(polygon: &FloatPolygon, halvings: usize, vertex: usize) -> usize {
+    let (degree, is_periodic) = (polygon.degree(), polygon.is_periodic());
+    let offset = (degree - 1) / 2;
+    (1..=halvings).fold(vertex, |vertex, halving| {
+        let segments = polygon.segments() << halving;
+        match is_periodic {
+            true => (2 * vertex + segments - offset) % segments,
+            false => (2 * vertex)
+                .saturating_sub(offset)
+                .min(segments + degree - 1),
+        }
+    })
+}

@@ -157,7 +157,9 @@ fn the_second_curve_moves_only_if_it_may() {
     assert_eq!(report.figure("second_move"), None);
     let after = &only(&fixed).polygon;
     let (_, second) = document.curves().nth(1).expect("the second");
-    assert!(has_at(after, after.vertices().len() - 12, &second.polygon));
+    let [kept, found] = [&second.polygon, after].map(|it| it.end_jet(End::Finish));
+    assert!(kept.point.distance(found.point) <= 1e-12 * after.size());
+    assert!((kept.signed_curvature() / found.signed_curvature() - 1.0).abs() <= 1e-9);
     // Locked vertices do not move.
     let mut locked = document.clone();
     let curve = locked.ids().nth(1).expect("the second");
@@ -489,16 +491,129 @@ fn a_bridge_that_goes_a_long_way_round_is_told_or_merged_instead() {
         let told = format!("trial {trial}: {}", report.text());
         assert_eq!(text(&report, "method"), "merge", "{told}");
         assert!(
-            outcome.reached && told.contains("merged within the gap"),
+            outcome.reached && told.contains("Merged within the gap"),
             "{told}"
         );
-        let (_, _, bridged) = join(&document, &[("method", Value::Choice(2))]);
+        let (bridged, _, report) = join(&document, &[("method", Value::Choice(2))]);
+        let told = report.text();
+        let said = match bridged.reached {
+            true => "Each segment became",
+            false => "A bridge is ",
+        };
+        assert!(told.contains(said), "{told}");
+    }
+}
+
+#[test]
+fn a_gap_of_one_segment_is_bridged_by_halved_segments() {
+    let mut random = Random(3);
+    for degree in 3..=6 {
+        let [first, second] = cut_arc(&mut random, degree, Continuity::G3);
+        let parts = [&first.polygon, &second.polygon];
+        let short = parts[1].split(1.0, 0).expect("two parts").1.polygon;
+        let follower = arc("third", degree, 0.0, 60.0);
+        let curves = [first.clone(), Curve::new("second", short), follower];
+        let mut document = Document::from_curves(curves);
+        let ids: Vec<_> = document.ids().collect();
+        let third = ids[2];
+        let matched = EndMatch {
+            curve: third,
+            end: End::Start,
+            source: ids[1],
+            place: MatchPlace::Parameter(1.5),
+            continuity: Continuity::G0,
+            reversed: false,
+        };
+        document.apply(Edit::SetMatch(matched)).expect("an edit");
+        let second = document.curve(ids[1]).expect("a curve").polygon.clone();
+        let (outcome, after, report) = join(&document, &[("method", Value::Choice(2))]);
+        let told = format!("degree {degree}: {}", report.text());
         assert!(
-            bridged.text().contains("A bridge is "),
-            "{}",
-            bridged.text()
+            outcome.reached && told.contains("Each segment became"),
+            "{told}"
+        );
+        let found = &after.curve(ids[0]).expect("a curve").polygon;
+        let size = found.size();
+        // Both parts stay, with their parameters running faster.
+        let halved = |part: &FloatPolygon, from_start: bool| {
+            let most = found.segments() as f64 / part.segments() as f64;
+            let near = |pace: f64| {
+                let begin = match from_start {
+                    true => 0.0,
+                    false => found.segments() as f64 - pace * part.segments() as f64,
+                };
+                (0..=8).all(|step| {
+                    let u = f64::from(step) / 8.0 * part.segments() as f64;
+                    found.point(begin + pace * u).distance(part.point(u)) <= 1e-12 * size
+                })
+            };
+            [2.0, 4.0, 8.0, 16.0]
+                .into_iter()
+                .filter(|it| *it <= most)
+                .find(|pace| near(*pace))
+        };
+        let paces = [halved(parts[0], true), halved(&second, false)];
+        assert!(paces[0].is_some() && paces[0] == paces[1], "{told}");
+        // It is about where the curve was that lies between them.
+        let gap = parts[1].point(0.0).distance(parts[1].point(1.0));
+        let off = farthest([parts[1], parts[0]], found);
+        assert!(off <= 0.05 * gap, "{told}: {off:e} {gap}");
+        let start = after
+            .curve(third)
+            .expect("a curve")
+            .polygon
+            .end_jet(End::Start);
+        assert!(
+            start.point.distance(second.point(1.5)) <= 1e-9 * size,
+            "{told}"
         );
     }
+}
+
+#[test]
+fn ends_that_meet_are_not_bridged_by_a_loop() {
+    let mut random = Random(4);
+    let curves = cut_arc(&mut random, 5, Continuity::G1);
+    let document = Document::from_curves(curves);
+    let (outcome, _, report) = join(&document, &[("method", Value::Choice(2))]);
+    assert!(!outcome.reached, "{}", report.text());
+    assert!(report.text().contains("A bridge is "), "{}", report.text());
+}
+
+#[test]
+fn a_corner_stays_in_a_chain_unless_it_is_asked_for() {
+    let document = Document::from_curves([
+        arc("first", 4, 0.0, 60.0),
+        line("second", [5.0, 0.0], [20.0, 0.0]),
+    ]);
+    let ends = [
+        ("first-end", Value::Choice(2)),
+        ("second-end", Value::Choice(1)),
+    ];
+    let automatic = [&ends[..], &[("method", Value::Choice(3))]].concat();
+    let (outcome, after, report) = join(&document, &automatic);
+    assert!(
+        outcome.reached && report.text().contains("up to G0"),
+        "{}",
+        report.text()
+    );
+    let [before, now] = [&document, &after].map(|document| {
+        let id = document.ids().nth(1).expect("two curves");
+        document
+            .curve(id)
+            .expect("a curve")
+            .polygon
+            .end_jet(End::Start)
+    });
+    let turned = before
+        .first
+        .normalize()
+        .cross(now.first.normalize())
+        .length();
+    assert!(turned <= 0.5, "{turned}");
+    let asked = [&automatic[..], &[("continuity", Value::Choice(2))]].concat();
+    let (_, _, report) = join(&document, &asked);
+    assert!(report.text().contains("up to G1"), "{}", report.text());
 }
 
 #[test]

@@ -441,17 +441,40 @@ impl Case {
         (!missed.is_empty()).then(|| missed.join("; "))
     }
 
-    /// The first curve is part of the composite, whichever way it runs.
+    /// Both curves are parts of the composite, whichever way they run: to the bit, or with halved segments but for
+    /// rounding.
     fn parts_changed(&self, composite: &FloatPolygon) -> Option<String> {
+        let size = composite.size();
         let missing = self.input.curves().iter().filter(|(_, part)| {
-            let part = part.polygon.vertices();
-            let turned: Vec<DVec3> = part.iter().rev().copied().collect();
-            let mut windows = composite.vertices().windows(part.len());
-            !windows.any(|window| window == part || window == turned)
+            let mut halved = part.polygon.vertices().to_vec();
+            let mut rounding = 0.0;
+            !(0..=4).any(|_| {
+                let turned: Vec<DVec3> = halved.iter().rev().copied().collect();
+                let same = |window: &[DVec3], part: &[DVec3]| {
+                    let mut pairs = window.iter().zip(part);
+                    pairs.all(|(a, b)| a.distance(*b) <= rounding * size)
+                };
+                let mut windows = composite.vertices().windows(halved.len());
+                let found = windows.any(|it| same(it, &halved) || same(it, &turned));
+                halved = with_halved_segments(&halved, composite.degree());
+                rounding = 1e-12;
+                found
+            })
         });
         let missing = missing.count();
         (missing > 0).then(|| format!("{missing} parts are changed"))
     }
+}
+
+/// The vertices of the same curve with halved segments, by doubling each vertex and taking n means (Lane and
+/// Riesenfeld, 1980).
+fn with_halved_segments(vertices: &[DVec3], degree: usize) -> Vec<DVec3> {
+    let mut halved: Vec<DVec3> = vertices.iter().flat_map(|it| [*it; 2]).collect();
+    for _ in 0..degree {
+        let pairs = halved.windows(2);
+        halved = pairs.map(|pair| pair[0].midpoint(pair[1])).collect();
+    }
+    halved
 }
 
 /// Whether the curvature of a curve hardly changes.

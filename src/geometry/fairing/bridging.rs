@@ -1,19 +1,23 @@
 //! Bridges: vertices between two parts that make one harmonious float polygon of them.
 
+use std::f64::consts::PI;
 use std::ops::Range;
 
-use glam::{DVec3, DVec4};
+use glam::{DVec2, DVec3, DVec4};
 use thiserror::Error;
 
 use super::counts::{ShapeCounts, counted, domain, seen};
 use super::objective::Measure;
 use super::problem::Problem;
 use super::walk::walk;
+use crate::geometry::arc_length::arc_length_between;
 use crate::geometry::basis::uniform_basis_derivative;
+use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::Features;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::harmony::VertexFlow;
+use crate::geometry::jet::Jet;
 use crate::geometry::progress::Progress;
 
 /// The most vertices that a bridge may have.
@@ -33,6 +37,15 @@ const MOST_STEPS: usize = 60;
 
 /// Pieces that measure the length of a first guess.
 const PIECES: usize = 64;
+
+/// A bridge between two curves that is longer than so many times the gap and the legs beside it goes a long way round.
+const LONG: f64 = 3.0;
+
+/// The relative error of a bridge's length.
+const LENGTH: f64 = 1e-3;
+
+/// How often the segments of both parts are halved so that a bridge fits into the gap.
+const MOST_HALVINGS: usize = 4;
 
 /// Request for a bridge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,6 +69,14 @@ pub struct Bridged {
     pub undecided: usize,
     /// The number of Gauss–Newton steps in all.
     pub iterations: usize,
+    /// How often the segments of both parts were halved, which changes no part.
+    pub halvings: usize,
+    /// The length of the curve between the parts.
+    pub length: f64,
+    /// The distance of the ends.
+    pub gap: f64,
+    /// Whether it goes a long way round: it is much longer than the gap, or has a loop.
+    pub is_long: bool,
 }
 
 /// Why there is no bridge.
@@ -101,6 +122,10 @@ pub enum BridgeError {
 /// 1 + its bending energy times its length; where the second part moves, the one with
 /// the fewest features, then the fewest vertices. The logarithms of weights go on as a cubic.
 ///
+/// A bridge has n segments at least, about as long as those beside it. Where it goes a long way round for that, or
+/// turns by half a turn more than the cubic between the ends of a short gap, the segments of both parts are halved, up
+/// to four times, until it does not.
+///
 /// # Errors
 /// [`BridgeError`]; a part that is periodic is [`PolygonError::PeriodicCurve`].
 pub fn join(
@@ -114,12 +139,12 @@ pub fn join(
         return Err(BridgeError::Degrees { first, second });
     }
     let parts = Parts {
-        first,
-        second,
+        first: first.clone(),
+        second: second.clone(),
         closes: false,
     };
     parts.check_open("joined")?;
-    parts.bridged(bridge, progress)
+    parts.fitted(bridge, progress)
 }
 
 /// Join the end of an open curve with its own start, so that it is periodic, as [`join`] does.
@@ -132,8 +157,8 @@ pub fn close(
     progress: &Progress,
 ) -> Result<Bridged, BridgeError> {
     let parts = Parts {
-        first: polygon,
-        second: polygon,
+        first: polygon.clone(),
+        second: polygon.clone(),
         closes: true,
     };
     parts.check_open("closed")?;
@@ -141,7 +166,7 @@ pub fn close(
         vertices,
         second_moves: false,
     };
-    parts.bridged(&bridge, progress)
+    parts.fitted(&bridge, progress)
 }
 
 /// Measure the largest jump of the value and the derivatives up to order n − 1 by u at the knots of
@@ -189,9 +214,9 @@ impl Bridged {
 }
 
 /// The two parts to join.
-struct Parts<'a> {
-    first: &'a FloatPolygon,
-    second: &'a FloatPolygon,
+struct Parts {
+    first: FloatPolygon,
+    second: FloatPolygon,
     /// Whether the two are the same, and the bridge closes it.
     closes: bool,
 }
@@ -204,7 +229,7 @@ struct Trial {
     rank: (f64, usize),
 }
 
-impl Parts<'_> {
+impl Parts {
     fn check_open(&self, done: &'static str) -> Result<(), PolygonError> {
         self.first.check_open(done)?;
         self.second.check_open(done)
@@ -220,7 +245,7 @@ impl Parts<'_> {
         let (degree, count) = (self.first.degree(), self.first.vertices().len());
         let begin = count - degree;
         let shared = (0..degree).all(|index| {
-            let [a, b] = [(self.first, begin + index), (self.second, index)]
+            let [a, b] = [(&self.first, begin + index), (&self.second, index)]
                 .map(|(polygon, index)| (polygon.vertex(index), polygon.weight(index)));
             a == b
         });
@@ -232,6 +257,69 @@ impl Parts<'_> {
             bridge: begin..begin,
             rank: (0.0, 0),
         })
+    }
+
+    /// The bridge between the parts with as few halvings as fit it into the gap, or with none if no number does.
+    fn fitted(mut self, bridge: &Bridge, progress: &Progress) -> Result<Bridged, BridgeError> {
+        let whole = self.bridged(bridge, progress)?;
+        if bridge.second_moves || self.fits(&whole) {
+            return Ok(whole);
+        }
+        let halvings = match bridge.vertices {
+            Some(_) => 0,
+            None => MOST_HALVINGS,
+        };
+        for halvings in 1..=halvings {
+            self.first = self.first.subdivided()?;
+            self.second = self.second.subdivided()?;
+            let found = self.bridged(bridge, progress)?;
+            if self.fits(&found) {
+                return Ok(Bridged { halvings, ..found });
+            }
+        }
+        Ok(Bridged {
+            is_long: true,
+            ..whole
+        })
+    }
+
+    /// Whether a bridge goes no long way round: it is at most three times as long as the gap and the legs |C′|/n of
+    /// the closed polygons beside it, unless it closes a curve, and across a gap of the plane that is shorter than
+    /// its n + 1 segments would like it turns by no more than the cubic between the ends and half a turn.
+    fn fits(&self, found: &Bridged) -> bool {
+        let [end, start] = self.ends();
+        let chord = start.point - end.point;
+        let (degree, speeds) = (self.first.degree() as f64, end.speed() + start.speed());
+        if !self.closes && found.length > LONG * chord.length() + speeds / degree {
+            return false;
+        }
+        let is_tight = chord.length() < 0.5 * (degree + 1.0) * speeds;
+        if !is_tight || !self.is_planar() {
+            return true;
+        }
+        let slope = |jet: &Jet| chord.length() * jet.tangent().unwrap_or(DVec3::ZERO);
+        let points = [end.point, slope(&end), slope(&start), start.point];
+        let cubic = |step: usize| -> DVec3 {
+            let weights = hermite(step as f64 / PIECES as f64);
+            let terms = weights.into_iter().zip(points);
+            terms.map(|(weight, point)| weight * point).sum()
+        };
+        let from = self.first.segments() as f64;
+        let across = found.bridge.end as f64 - from;
+        let bridge = |step: usize| {
+            found
+                .polygon
+                .point(from + across * step as f64 / PIECES as f64)
+        };
+        turned(bridge) - turned(cubic) < PI
+    }
+
+    /// The ends that are joined.
+    fn ends(&self) -> [Jet; 2] {
+        [
+            self.first.end_jet(End::Finish),
+            self.second.end_jet(End::Start),
+        ]
     }
 
     fn bridged(&self, bridge: &Bridge, progress: &Progress) -> Result<Bridged, BridgeError> {
@@ -255,12 +343,20 @@ impl Parts<'_> {
         let features = Features::proved(&around, |_| !progress.is_cancelled());
         let features = features.ok_or(BridgeError::Cancelled)?;
         let proved = counted(&features, around.is_planar(), Some(stretch));
+        let [end, start] = self.ends();
+        let gap = end.point.distance(start.point);
+        let [from, to] = [self.first.segments(), best.bridge.end].map(|u| u as f64);
+        let length = arc_length_between(&best.polygon, from, to, LENGTH);
         Ok(Bridged {
             polygon: best.polygon,
             bridge: best.bridge,
             counts: proved.counts,
             undecided: proved.undecided,
             iterations,
+            halvings: 0,
+            length,
+            gap,
+            is_long: false,
         })
     }
 
@@ -271,8 +367,8 @@ impl Parts<'_> {
             |polygon: &FloatPolygon, index| (polygon.vertex(index), polygon.weight(index).ln());
         let last = self.first.vertices().len() - 1;
         [
-            [vertex(self.first, last - 1), vertex(self.first, last)],
-            [vertex(self.second, 0), vertex(self.second, 1)],
+            [vertex(&self.first, last - 1), vertex(&self.first, last)],
+            [vertex(&self.second, 0), vertex(&self.second, 1)],
         ]
     }
 
@@ -317,14 +413,7 @@ impl Parts<'_> {
             ),
         ];
         let point = |index: usize| {
-            let t = (index + 1) as f64 / steps;
-            let s = 1.0 - t;
-            let weights = [
-                s * s * (1.0 + 2.0 * t),
-                s * s * t,
-                -t * t * s,
-                t * t * (1.0 + 2.0 * s),
-            ];
+            let weights = hermite((index + 1) as f64 / steps);
             let points = [from.0, slopes[0].0, slopes[1].0, to.0];
             let logarithms = [from.1, slopes[0].1, slopes[1].1, to.1];
             let terms = weights.iter().zip(points);
@@ -403,9 +492,28 @@ impl Parts<'_> {
     }
 }
 
+/// The weights of the start, the slopes at start and end, and the end in a cubic (Hermite).
+fn hermite(t: f64) -> [f64; 4] {
+    let s = 1.0 - t;
+    [
+        s * s * (1.0 + 2.0 * t),
+        s * s * t,
+        -t * t * s,
+        t * t * (1.0 + 2.0 * s),
+    ]
+}
+
+/// By how much a line through points of the plane turns to either side, in radians.
+fn turned(point: impl Fn(usize) -> DVec3) -> f64 {
+    let points: Vec<DVec2> = (0..=PIECES).map(|step| point(step).truncate()).collect();
+    let legs: Vec<DVec2> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let turns = legs.windows(2).map(|pair| pair[0].angle_to(pair[1]));
+    turns.map(f64::abs).sum()
+}
+
 /// The search for the best number of vertices.
 struct Search<'a> {
-    parts: &'a Parts<'a>,
+    parts: &'a Parts,
     second_moves: bool,
     progress: &'a Progress,
     best: Option<Trial>,

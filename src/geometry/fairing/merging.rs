@@ -66,9 +66,10 @@ pub struct Track {
 pub enum MergeError {
     /// The ends do not meet.
     #[error(
-        "the ends are {} apart, and the tolerance is {}: bridge the gap, or allow more",
+        "the ends are {} apart, and the tolerance is {}: allow {} or more, or bridge the gap",
         significant(*.distance, 3),
-        significant(*.tolerance, 3)
+        significant(*.tolerance, 3),
+        significant(1.01 * *.distance, 3)
     )]
     Apart {
         /// Their distance.
