@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::amount::Amount;
 use super::editable::{check_measurable, open};
-use super::end_change::remarks_on_change;
+use super::end_change::{moved_far, remarks_on_change};
 use super::error::OperationError;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, locked};
@@ -15,6 +15,7 @@ use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{ANY, Choice, Kind, Parameter};
 use super::targets::{SHARE_OF_SIZE, annotations, corrected, cusp, place_of, residual};
+use super::turned_over::turned_over;
 use super::values::Values;
 use crate::document::{Curve, CurveId, EditError};
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
@@ -44,17 +45,33 @@ const METHOD: Parameter = Parameter {
 const ORDER: Parameter = Parameter {
     name: "order",
     label: "Disturb least",
-    help: "Minimised while both ends are met: a difference of the moves, or disharmony",
+    help: "What moves least: vertices (differences of an order), the curve, or else disharmony",
     kind: Kind::Choice {
         options: &[
-            Choice::new("1", "Order 1"),
-            Choice::new("2", "Order 2"),
-            Choice::new("3", "Order 3"),
+            Choice::new("automatic", "Automatic"),
+            Choice::new("1", "Vertices, order 1"),
+            Choice::new("2", "Vertices, order 2"),
+            Choice::new("3", "Vertices, order 3"),
+            Choice::new("curve", "Curve"),
             Choice::new("harmonious", "Harmony"),
         ],
         default: 0,
     },
 };
+
+/// The meanings of the options of [`ORDER`].
+const DISTURBANCES: [Option<Disturbance>; 6] = [
+    None,
+    Some(Disturbance::Differences(1)),
+    Some(Disturbance::Differences(2)),
+    Some(Disturbance::Differences(3)),
+    Some(Disturbance::Curve),
+    Some(Disturbance::Harmony),
+];
+
+/// Automatic, the curve itself moves least where it moves no more than this share of the way that it goes if the
+/// vertices move least, and that is far.
+const LESS: f64 = 0.5;
 
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
@@ -200,6 +217,8 @@ struct Correction {
     passes: usize,
     /// Why the targets are not reached.
     reason: String,
+    /// What was chosen.
+    remark: Option<String>,
 }
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
@@ -233,9 +252,17 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             outcome
         }
         Some(polygon) => {
-            let remarks = remarks_on_change(curve, &polygon)?;
+            let turned = turned_over(&curve.polygon, &polygon);
+            let mut remarks = remarks_on_change(curve, &polygon, turned.as_deref())?;
+            remarks.extend(correction.remark);
             let outcome = corrected(id, curve, polygon)?;
-            Outcome { remarks, ..outcome }
+            let failed = turned.map(|_| Requirement::Failed { left: None });
+            let requirements = requirements.iter().cloned().chain(failed).collect();
+            Outcome {
+                remarks,
+                requirements: vec![(id, requirements)],
+                ..outcome
+            }
         }
         None => Outcome {
             requirements: vec![(id, vec![failed])],
@@ -380,32 +407,61 @@ fn at_once(
             residual: residual(curve, &curve.polygon),
             passes: 0,
             reason: String::new(),
+            remark: None,
         });
     }
-    let disturbances = [
-        Disturbance::Differences(1),
-        Disturbance::Differences(2),
-        Disturbance::Differences(3),
-        Disturbance::Harmony,
-    ];
-    let disturbance = values.choice(&ORDER, &disturbances);
-    let targets = targets(curve);
-    match correct_jointly(&curve.polygon, &targets, disturbance, &locked, progress) {
-        Ok(joint) => Ok(Correction {
-            residual: joint.residual,
-            polygon: Some(joint.polygon).filter(is_met),
-            passes: joint.steps,
-            reason: ROUNDING_LEAVES_MORE.to_owned(),
-        }),
-        Err(error @ CorrectionError::NotSolvable { residual, .. }) => Ok(Correction {
-            polygon: None,
-            residual,
-            passes: 1,
-            reason: error.to_string(),
-        }),
-        Err(CorrectionError::Cancelled) => Err(OperationError::Cancelled),
-        Err(error) => Err(error.into()),
+    let least = |disturbance: Disturbance| -> Result<Correction, OperationError> {
+        match correct_jointly(
+            &curve.polygon,
+            &targets(curve),
+            disturbance,
+            &locked,
+            progress,
+        ) {
+            Ok(joint) => Ok(Correction {
+                residual: joint.residual,
+                polygon: Some(joint.polygon).filter(is_met),
+                passes: joint.steps,
+                reason: ROUNDING_LEAVES_MORE.to_owned(),
+                remark: None,
+            }),
+            Err(error @ CorrectionError::NotSolvable { residual, .. }) => Ok(Correction {
+                polygon: None,
+                residual,
+                passes: 1,
+                reason: error.to_string(),
+                remark: None,
+            }),
+            Err(CorrectionError::Cancelled) => Err(OperationError::Cancelled),
+            Err(error) => Err(error.into()),
+        }
+    };
+    if let Some(disturbance) = values.choice(&ORDER, &DISTURBANCES) {
+        return least(disturbance);
     }
+    let by_vertices = least(Disturbance::Differences(1))?;
+    let most = match &by_vertices.polygon {
+        Some(polygon) if turned_over(&curve.polygon, polygon).is_some() => f64::INFINITY,
+        Some(polygon) => match moved_far(curve, polygon)? {
+            Some([moved, _]) => LESS * moved,
+            None => return Ok(by_vertices),
+        },
+        None => f64::INFINITY,
+    };
+    let by_curve = least(Disturbance::Curve)?;
+    let is_nearer = match &by_curve.polygon {
+        Some(polygon) => curve.polygon.deviation(polygon)? <= most,
+        None => false,
+    };
+    Ok(match is_nearer {
+        true => Correction {
+            remark: Some(
+                "The curve moves least, not its vertices: those would take it far".to_owned(),
+            ),
+            ..by_curve
+        },
+        false => by_vertices,
+    })
 }
 
 /// Repeat steps 2 to 6 on every end that has a target, and on one that has none if it moves with the other.
@@ -437,6 +493,7 @@ fn step_by_step(
         residual,
         passes,
         reason: refused.unwrap_or_else(|| why_not(curve, passes, residual)),
+        remark: None,
         polygon: Some(outcome.polygon).filter(|_| settled),
     })
 }

@@ -1,7 +1,6 @@
 //! Remarks on end corrections that change the curve more than they correct it.
 
 use super::error::OperationError;
-use super::turned_over::turned_over;
 use crate::document::Curve;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::{BezierPolygon, End, FloatPolygon, significant};
@@ -14,16 +13,44 @@ const MUCH: f64 = 10.0;
 /// whole, too: curvatures and directions say little about how far a curve may move.
 const FAR: f64 = 0.02;
 
-/// Say where a correction moves the curve far, turns it over, or leads it out of its plane.
+/// Say where a correction moves the curve far, turns it over, as `turned` says, or leads it out of its plane.
 ///
 /// # Errors
 /// [`OperationError::Polygon`] if it cannot be measured how far the curve moves.
 pub(super) fn remarks_on_change(
     curve: &Curve,
     after: &FloatPolygon,
+    turned: Option<&str>,
 ) -> Result<Vec<String>, OperationError> {
     let before = &curve.polygon;
     let mut remarks = Vec::new();
+    let advice = "lock the vertices that are to stay with “Also hold vertices” (--locked)";
+    if let Some([moved, shift]) = moved_far(curve, after)? {
+        let [moved, shift] = [moved, shift].map(|length| significant(length, 3));
+        remarks.push(format!(
+            "The curve moves by up to {moved}, its ends by {shift}: {advice}"
+        ));
+    }
+    if let Some(turned) = turned {
+        remarks.push(format!("{turned}: {advice}, or turn the target direction"));
+    }
+    if before.is_planar() && !after.is_planar() {
+        remarks.push(
+            "A target lies outside the plane z = 0: the curve becomes a curve in space".to_owned(),
+        );
+    }
+    Ok(remarks)
+}
+
+/// How far a correction moves the curve, and how far its ends, if the curve changes as a whole.
+///
+/// # Errors
+/// [`OperationError::Polygon`] if it cannot be measured.
+pub(super) fn moved_far(
+    curve: &Curve,
+    after: &FloatPolygon,
+) -> Result<Option<[f64; 2]>, OperationError> {
+    let before = &curve.polygon;
     let targets = curve.targets.list().into_iter();
     let asked = targets
         .clone()
@@ -33,22 +60,8 @@ pub(super) fn remarks_on_change(
     let shift = shifts.fold(0.0, f64::max);
     let moved = before.deviation(after)?;
     let size = BezierPolygon::from_float(before).size();
-    let advice = "lock the vertices that are to stay with “Also hold vertices” (--locked)";
-    if moved > MUCH * asked || moved > (FAR * size).max(2.0 * shift) {
-        let [moved, shift] = [moved, shift].map(|length| significant(length, 3));
-        remarks.push(format!(
-            "The curve moves by up to {moved}, its ends by {shift}: {advice}"
-        ));
-    }
-    if let Some(turned) = turned_over(before, after) {
-        remarks.push(format!("{turned}: {advice}, or turn the target direction"));
-    }
-    if before.is_planar() && !after.is_planar() {
-        remarks.push(
-            "A target lies outside the plane z = 0: the curve becomes a curve in space".to_owned(),
-        );
-    }
-    Ok(remarks)
+    let is_far = moved > MUCH * asked || moved > (FAR * size).max(2.0 * shift);
+    Ok(is_far.then_some([moved, shift]))
 }
 
 /// The size of a correction as a length: the shift, or how far the terminal legs turn or bend.

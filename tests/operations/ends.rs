@@ -159,13 +159,18 @@ fn a_correction_that_changes_the_whole_curve_says_what_keeps_it() {
     let locked = ("locked", Value::List(vec![20.0, 21.0, 22.0]));
     let told = |target: EndTarget, given: &[(&str, Value)]| {
         let runner = Runner::of(wave()).with_target(End::Finish, target);
-        runner.done("correct-ends", given).0.remarks.join("\n")
+        let outcome = runner.run("correct-ends", given).expect("an outcome");
+        outcome.remarks.join("\n")
     };
     assert_eq!(told(up, &[]), "");
+    let vertices = ("order", Value::Choice(1));
     for (remarks, begin) in [
-        (told(up, &[locked]), "The curve moves by up to "),
         (
-            told(over, &[]),
+            told(up, &[locked.clone(), vertices.clone()]),
+            "The curve moves by up to ",
+        ),
+        (
+            told(over, std::slice::from_ref(&vertices)),
             "The curve turns by -189° in all, before by ",
         ),
     ] {
@@ -176,6 +181,49 @@ fn a_correction_that_changes_the_whole_curve_says_what_keeps_it() {
             "{remarks}"
         );
     }
+}
+
+#[test]
+fn the_curve_moves_least_where_its_vertices_would_take_it_far() {
+    // Few vertices, whose outer ones hardly matter: a straight end takes them far.
+    let vertices = [
+        (-0.163, 4.148),
+        (2.116, -0.355),
+        (0.863, -0.003),
+        (0.317, 0.212),
+        (-0.028, 0.043),
+        (-0.047, -0.071),
+        (0.223, 0.062),
+        (0.855, -0.066),
+        (2.037, -0.149),
+        (4.841, 6.394),
+    ];
+    let polygon = FloatPolygon::planar(5, &vertices).expect("a polygon");
+    let straight = [
+        ("start-curvature", Value::List(vec![0.0])),
+        ("end-curvature", Value::List(vec![0.0])),
+    ];
+    let run = |order: usize| {
+        let runner = Runner::of(polygon.clone());
+        let given = [&straight[..], &[("order", Value::Choice(order))]].concat();
+        let (outcome, curves) = runner.done("correct-ends", &given);
+        let found = &curves[0].polygon;
+        for end in End::BOTH {
+            let [before, after] = [&polygon, found].map(|it| it.end_jet(end));
+            assert!(before.point.distance(after.point) <= 1e-9);
+            assert!(after.signed_curvature().abs() <= 1e-9);
+        }
+        let samples = (0..=100).map(|step| f64::from(step) / 20.0);
+        let moved = samples.map(|u| polygon.point(u).distance(found.point(u)));
+        (moved.fold(0.0, f64::max), outcome.remarks.join("\n"))
+    };
+    let [(automatic, said), (by_vertices, _), (by_curve, _)] = [0, 1, 4].map(run);
+    assert!(
+        by_vertices > 0.5 && by_curve < 0.04,
+        "{by_vertices} {by_curve}"
+    );
+    assert_eq!(automatic, by_curve);
+    assert!(said.contains("The curve moves least"), "{said}");
 }
 
 #[test]

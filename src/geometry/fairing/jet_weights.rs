@@ -67,6 +67,12 @@ impl JetWeights {
         Self { vertices, weights }
     }
 
+    /// The weights of the vertices in the derivative of an order.
+    pub(super) fn terms(&self, order: usize) -> impl Iterator<Item = (usize, f64)> {
+        let weights = self.weights.iter().map(move |weights| weights[order]);
+        self.vertices.iter().copied().zip(weights)
+    }
+
     /// The weights in the point.
     pub(super) fn of_value(self) -> Vec<(usize, f64)> {
         let weights = self.weights.into_iter().map(|[weight, ..]| weight);

@@ -21,6 +21,9 @@ const FIDELITY: f64 = 1e-3;
 /// The most steps towards curvatures and slopes that a frame has time for.
 const HASTY_STEPS: usize = 8;
 
+/// The weight ν of changes of the second derivative beside the moves of the curve.
+const BENDING: f64 = 1e-2;
+
 /// The most steps of harmonious corrections.
 const MOST_STEPS: usize = 50;
 
@@ -79,6 +82,9 @@ pub enum Disturbance {
     /// The k-th differences of the vertices' moves, k = 1, 2 or 3: 1 moves the vertices least, 3
     /// bends the curve most evenly.
     Differences(usize),
+    /// The moves of the curve, and of its second derivative: the least for a curve whose outer vertices hardly
+    /// matter.
+    Curve,
     /// The harmony of the polygon, as [`harmonise`](super::harmonising::harmonise) measures it.
     Harmony,
 }
@@ -243,8 +249,14 @@ impl<'a> Correction<'a> {
         begin: &[DVec3],
         most: usize,
     ) -> Option<Descent> {
-        let fidelity = FIDELITY;
-        let found = problem.meet(Objective::Disturbance { order, fidelity }, begin, most)?;
+        let objective = match self.disturbance {
+            Disturbance::Curve => Objective::CurveMoves { bending: BENDING },
+            _ => Objective::Disturbance {
+                order,
+                fidelity: FIDELITY,
+            },
+        };
+        let found = problem.meet(objective, begin, most)?;
         self.taken.update(|taken| taken + found.steps);
         Some(found)
     }
@@ -259,7 +271,7 @@ impl<'a> Correction<'a> {
         let unsolved = |residual| self.not_solvable(problem, residual);
         let order = match self.disturbance {
             Disturbance::Differences(order) => order,
-            Disturbance::Harmony => 1,
+            Disturbance::Curve | Disturbance::Harmony => 1,
         };
         let found = self.meet(problem, order, begin, most);
         let mut found = found.ok_or_else(|| unsolved(self.residual(self.polygon)))?;

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::flow::{Member, Sequence};
+use super::jet_weights::JetWeights;
 use super::least_squares::LeastSquares;
 use super::unknowns::Unknowns;
 use crate::geometry::banded::difference_stencil;
@@ -17,6 +18,11 @@ pub(super) enum Objective {
         order: usize,
         /// The weight μ.
         fidelity: f64,
+    },
+    /// The moves of the curve Σ|C − C⁰|² + ν Σ|C″ − C⁰″|² at samples, the derivatives by u.
+    CurveMoves {
+        /// The weight ν.
+        bending: f64,
     },
     /// The harmony Σ(ΔᵐK)² ℓ² + w Σ(Δ² log leg)² + ε Σ|p − p⁰|² / ℓ², with ℓ the mean leg and more
     /// or other measures in space.
@@ -43,6 +49,9 @@ pub(super) enum Measure {
     /// The discrete curvature of a polygon in space, and the torsion angles φ.
     CurvatureAndTorsion,
 }
+
+/// The samples of a segment at which the moves of the curve count.
+const SAMPLES: usize = 8;
 
 /// The weight w of the legs' lengths beside the curvature.
 const LEGS: f64 = 0.01;
@@ -98,6 +107,12 @@ impl Objective {
                 row(Row::Vector(residual, &[(vertex, factor)]));
             }
         };
+        let moved = |terms: &[(usize, f64)]| -> DVec3 {
+            let terms = terms.iter();
+            terms
+                .map(|(vertex, weight)| *weight * (vertices[*vertex] - shape.before[*vertex]))
+                .sum()
+        };
         match *self {
             Self::Disturbance { order, fidelity } => {
                 moves(fidelity.sqrt());
@@ -105,13 +120,19 @@ impl Objective {
                 for first in windows(shape.polygon, stencil.len()) {
                     let touched = wrapped(shape.polygon, first, stencil.len());
                     let terms: Vec<(usize, f64)> = touched.zip(stencil.iter().copied()).collect();
-                    let residual = terms
-                        .iter()
-                        .map(|(vertex, weight)| {
-                            *weight * (vertices[*vertex] - shape.before[*vertex])
-                        })
-                        .sum();
-                    row(Row::Vector(residual, &terms));
+                    row(Row::Vector(moved(&terms), &terms));
+                }
+            }
+            Self::CurveMoves { bending } => {
+                for piece in 0..SAMPLES * shape.polygon.segments() {
+                    let t = ((piece % SAMPLES) as f64 + 0.5) / SAMPLES as f64;
+                    let weights = JetWeights::of_segment(shape.polygon, piece / SAMPLES, t);
+                    for (order, factor) in [(0, 1.0), (2, bending.sqrt())] {
+                        let terms = weights.terms(order);
+                        let terms = terms.map(|(vertex, weight)| (vertex, factor * weight));
+                        let terms: Vec<(usize, f64)> = terms.collect();
+                        row(Row::Vector(moved(&terms), &terms));
+                    }
                 }
             }
             Self::Harmony {
