@@ -8,7 +8,8 @@ use super::problem::{Data, PlacedCurve, Problem, Start};
 use super::sign_runs::SignRuns;
 use super::slope_coefficients::SlopeTables;
 use super::splines::Splines;
-use super::winding::{hooks, winds};
+use super::winding::{hooks, spikes, winds};
+use crate::geometry::end::End;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
@@ -484,7 +485,12 @@ impl<'a> Task<'a> {
             return false;
         };
         let points = self.placed_points(level);
-        if self.winds_between(&polygon, level, &points) || hooks(&polygon, &points) {
+        let problem = self.problem(level.splines.count);
+        let known = End::BOTH.map(|end| problem.bends_at(end));
+        if self.winds_between(&polygon, level, &points)
+            || hooks(&polygon, &points)
+            || spikes(&polygon, &points, known)
+        {
             return false;
         }
         let features = Features::proved(&polygon, |_| !self.progress.is_cancelled());

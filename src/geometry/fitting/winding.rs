@@ -19,6 +19,13 @@ const CLEAN: f64 = 1.0;
 /// a hook.
 const HOOK: f64 = 0.5;
 
+/// A curve that bends by more than this between an end and the point beside it, as the curvature times the distance
+/// of both, has a spike that its points do not show.
+const SPIKE: f64 = 3.0;
+
+/// The places between an end and the point beside it where its curvature is looked up.
+const LOOKED_UP: usize = 16;
+
 /// A chord between two points that follow each other.
 struct Chord {
     /// The parameter in the middle of their places.
@@ -64,6 +71,25 @@ pub(super) fn hooks(polygon: &FloatPolygon, points: &[(DVec2, f64)]) -> bool {
         turned.abs() > HOOK + turn.abs()
     };
     !polygon.is_periodic() && outer.any(turns_away)
+}
+
+/// Whether the curvature peaks between an end of a curve and the point beside it; `points` are as for [`winds`].
+/// `known` are the ends whose curvature is asked for.
+pub(super) fn spikes(polygon: &FloatPolygon, points: &[(DVec2, f64)], known: [bool; 2]) -> bool {
+    let ([first, second, ..], [.., before, last]) = (points, points) else {
+        return false;
+    };
+    let end = polygon.segments() as f64;
+    let outer = [(0.0, first, second), (end, last, before)];
+    let peaks = |(u, point, beside): (f64, &(DVec2, f64), &(DVec2, f64))| {
+        let gap = point.0.distance(beside.0);
+        let share = |step: usize| step as f64 / LOOKED_UP as f64;
+        let places = (0..LOOKED_UP).map(|step| u + share(step) * (beside.1 - u));
+        let is_calm = |u: f64| polygon.jet(u).curvature() * gap <= SPIKE;
+        !places.into_iter().all(is_calm)
+    };
+    let mut outer = outer.into_iter().zip(known).filter(|(_, known)| !known);
+    !polygon.is_periodic() && outer.any(|(end, _)| peaks(end))
 }
 
 /// A point where a curve crosses itself, at samples, if the polyline of its points does not.
@@ -144,6 +170,18 @@ mod tests {
         assert!(hooks(&hooked, &placed(&hooked, places())));
         let calm = line(&[&[(-1.0, 0.0), (0.0, 0.0), (1.0, 0.1)], &straight[..]].concat());
         assert!(!hooks(&calm, &placed(&calm, places())));
+    }
+
+    #[test]
+    fn a_curvature_that_peaks_beside_an_end_is_a_spike() {
+        let straight = [(2.0, 0.0), (3.0, 0.0), (4.0, 0.0), (5.0, 0.0)];
+        let turned = [(0.9, 0.4), (0.98, -0.04), (1.1, 0.0)];
+        let spiked = line(&[&turned[..], &straight].concat());
+        let places = || [0.0, 2.0, 3.0, 4.0].into_iter();
+        assert!(spikes(&spiked, &placed(&spiked, places()), [false; 2]));
+        assert!(!spikes(&spiked, &placed(&spiked, places()), [true, false]));
+        let calm = line(&[&[(-1.0, 0.0), (0.0, 0.0), (1.0, 0.1)], &straight[..]].concat());
+        assert!(!spikes(&calm, &placed(&calm, places()), [false; 2]));
     }
 
     #[test]
