@@ -1,6 +1,7 @@
 //! What points tell of each other: noise, outliers, corners, and points between them.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
@@ -33,10 +34,16 @@ const RING_CONTEXT: usize = 4;
 const CORNER: f64 = 0.5;
 const SHARPER: f64 = 4.0;
 
-/// Points a corner at least, but for a few corners, and the most corners: more of them are noise.
+/// The most corners that follow each other, and the least turn of each of them.
+const MOST_BESIDE: usize = 3;
+const SLAB: f64 = 0.8;
+
+/// Points a corner at least, but for a few corners, and the most corners: more of them are noise, unless they are this
+/// share of all sharp turns.
 const POINTS_A_CORNER: usize = 20;
 const FEW_CORNERS: usize = 8;
 const MOST_CORNERS: usize = 200;
+const CLEAR: f64 = 0.7;
 
 /// The weight of a point between two points, as a share of theirs.
 const LIGHT: f64 = 0.1;
@@ -113,22 +120,33 @@ fn inner_corners(points: &[DVec2]) -> Vec<usize> {
         .windows(2)
         .map(|it| (it[1] - it[0]).abs())
         .collect();
-    let is_corner = |index: &usize| {
-        let near = [index.checked_sub(1), Some(index + 1)];
-        let near = near
-            .into_iter()
-            .flatten()
-            .filter_map(|other| turns.get(other));
-        let most = near.fold(0.0_f64, |most, turn| most.max(*turn));
-        turns[*index] > CORNER && turns[*index] > SHARPER * most
-    };
-    let found = (0..turns.len()).filter(is_corner).map(|turn| turn + 1);
-    let found: Vec<usize> = found.collect();
+    let (mut found, mut next) = (Vec::new(), 0);
+    while let Some(first) = (next..turns.len()).find(|turn| turns[*turn] > CORNER) {
+        let run = turns[first..].iter().take_while(|turn| **turn > CORNER);
+        next = first + run.count();
+        // Corners beside each other, as at the end of a slab, turn by more than a bend that few points follow.
+        let is_slab = (first..next).len() <= MOST_BESIDE
+            && turns[first..next].iter().all(|turn| *turn > SLAB)
+            && stands_out(&turns, first..next);
+        let corners = (first..next).filter(|turn| is_slab || stands_out(&turns, *turn..turn + 1));
+        found.extend(corners.map(|turn| turn + 1));
+    }
+    // Of the many sharp turns of noise few are corners.
+    let sharp = turns.iter().filter(|turn| **turn > CORNER).count();
     let most = (points.len() / POINTS_A_CORNER + FEW_CORNERS).min(MOST_CORNERS);
-    match found.len() > most {
+    match found.len() > most && (found.len() as f64) < CLEAR * sharp as f64 {
         true => Vec::new(),
         false => found,
     }
+}
+
+/// Whether each turn of a run is much sharper than those beside the run.
+fn stands_out(turns: &[f64], run: Range<usize>) -> bool {
+    let beside = [run.start.checked_sub(1), Some(run.end)];
+    let beside = beside.into_iter().flatten();
+    let beside = beside.filter_map(|turn| turns.get(turn));
+    let most = beside.fold(0.0_f64, |most, turn| most.max(*turn));
+    turns[run].iter().all(|turn| *turn > SHARPER * most)
 }
 
 /// Put a light point between each two points, on the cubic through two neighbours on each side, so that the curve
