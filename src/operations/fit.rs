@@ -497,6 +497,9 @@ fn figures(fitted: &[Fitted]) -> Vec<Figure> {
     figures
 }
 
+/// Fewer extrema are advised where they bring the points nearer than this share of their distance.
+const NEARER: f64 = 0.8;
+
 /// What is to say beside the figures.
 fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
     let mut remarks = remarks_on_points(&found.outliers, &found.repeated);
@@ -526,6 +529,18 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
                 "Nothing found keeps {tolerance}, which the noise lets expect: one point is {off} off"
             ));
         }
+    }
+    if let Extrema::Exactly(number) = asked.extrema {
+        let fewer = found.trade_off.iter().filter(|it| it.extrema < number);
+        let best = fewer.min_by(|a, b| a.largest.total_cmp(&b.largest));
+        let nearer = best.filter(|it| it.largest < NEARER * found.deviation);
+        remarks.extend(nearer.map(|it| {
+            let [now, then] = [found.deviation, it.largest].map(|length| significant(length, 3));
+            format!(
+                "A point is {now} off; with {} extrema at most {then}: ask for fewer",
+                it.extrema
+            )
+        }));
     }
     if let Some(at) = found.crossing {
         let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));

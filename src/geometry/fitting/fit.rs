@@ -46,6 +46,10 @@ const MORE_TIME: Duration = Duration::from_millis(500);
 /// Levels of fewer extrema that begin those of more.
 const RELEASED: usize = 3;
 
+/// From this number of extrema on, levels with fewer begin those with just so many, which are looked for so long.
+const LADDER: usize = 4;
+const LADDER_TIME: Duration = Duration::from_secs(2);
+
 /// The search for the fewest extrema ends where so many numbers in a row come no nearer than this share: fewer where
 /// the points are within so many times their noise, and more where they are not. A shape with four equal waves comes no
 /// nearer until all of them are allowed.
@@ -340,9 +344,37 @@ impl Fit<'_> {
             self.asked.tolerance.map(|_| self.prepared.tolerance),
         );
         let keeps = self.asked.tolerance.is_some();
-        let levels = levels.levels(&[], &|known| self.show_chosen(known, keeps));
+        let (fewer, mut reached) = self.ladder(extrema);
+        let levels = levels.levels(&fewer, &|known| self.show_chosen(known, keeps));
         let (level, trade_off) = self.refined_choice(extrema, levels, keeps);
-        (level, trade_off.into_iter().collect())
+        reached.extend(trade_off);
+        (level, reached)
+    }
+
+    /// Levels with fewer extrema, which begin those with many: patterns of smoothed curves alone lead to worse ones.
+    /// What each number reaches comes with them.
+    fn ladder(&self, extrema: usize) -> (Vec<Level>, Vec<TradeOff>) {
+        let (mut fewer, mut reached): (Vec<Level>, _) = (Vec::new(), Vec::new());
+        let rungs = match extrema < LADDER {
+            true => 0..0,
+            false => 2 + extrema % 2..extrema,
+        };
+        let progress = self.progress.limited(LADDER_TIME);
+        for rung in rungs.step_by(2) {
+            if progress.is_cancelled() {
+                break;
+            }
+            let task = Task {
+                progress: &progress,
+                ..self.task(rung, None)
+            };
+            let levels = task.levels(&fewer, &|_| ());
+            reached.extend(self.trade_off(rung, &levels));
+            if !levels.is_empty() {
+                fewer = levels.into_iter().rev().take(RELEASED).collect();
+            }
+        }
+        (fewer, reached)
     }
 
     /// The level chosen, fitted to all points, and what the number of extrema reaches.
