@@ -283,6 +283,25 @@ mod tests {
     }
 
     #[test]
+    fn corners_beside_each_other_and_many_of_them_are_found() {
+        // A comb of slabs: at the foot and at the head of each one two corners that follow each other.
+        let slab = |tooth: usize| {
+            let x = 12.0 * tooth as f64;
+            let along = (0..=5).map(move |it| DVec2::new(x + it as f64, 0.0));
+            let up = (1..=5).map(move |it| DVec2::new(x + 5.0, it as f64));
+            let down = (0..=4).map(move |it| DVec2::new(x + 6.0, 5.0 - it as f64));
+            let back = (0..6).map(move |it| DVec2::new(x + 6.0 + it as f64, 0.0));
+            along.chain(up).chain(down).chain(back)
+        };
+        let points: Vec<DVec2> = (0..12).flat_map(slab).collect();
+        let each = [5, 10, 11, 16].into_iter();
+        let all: Vec<usize> = (0..12)
+            .flat_map(|tooth| each.clone().map(move |corner| 22 * tooth + corner))
+            .collect();
+        assert_eq!(corners(&points, false), all);
+    }
+
+    #[test]
     fn middles_lie_on_the_curve_of_the_points() {
         let mut weights = [1.0; 40];
         weights[20] = 3.0;
