@@ -13,7 +13,7 @@ use super::parameter::{ANY, Choice, Kind, Meaning, Parameter};
 use super::time_limit::{TIME_LIMIT, best_so_far, limited, why_ended};
 use super::turned_over::turned_over;
 use super::values::Values;
-use crate::document::{CurveId, Document};
+use crate::document::{Curve, CurveId, Document};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::harmonising::{
     Harmonised, Harmony, HarmonyError, Held, follows, harmonise,
@@ -22,7 +22,7 @@ use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{
-    BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, rounded_up,
+    BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, rounded_up, significant,
 };
 
 /// How far the curve may move without a wish, by its size.
@@ -116,6 +116,9 @@ const TORSION_EXTREMA: Parameter = Parameter {
     help: "How many extrema of the torsion of a curve in space are to be left",
     kind: Kind::optional_count(usize::MAX, true, PROMINENT),
 };
+
+/// The share of the size above which a move of the curve is told.
+const TOLD: f64 = 0.01;
 
 const MAX_DEVIATION: Parameter = Parameter {
     name: "max-deviation",
@@ -232,6 +235,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         );
     }
     if found.reached {
+        outcome.remarks.extend(remark_on_deviation(curve, &found));
         outcome.remarks.extend(remark_on_lost(&found));
         let lost = follows(&found.polygon, &progress) == Some(false)
             && follows(&curve.polygon, &progress) == Some(true);
@@ -269,6 +273,18 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     }
     outcome.annotations = stretch_marks(&curve.polygon, stretch);
     Ok(outcome)
+}
+
+/// Say that the curve moves far, and what moves it less.
+fn remark_on_deviation(curve: &Curve, found: &Harmonised) -> Option<String> {
+    let size = BezierPolygon::from_float(&curve.polygon).size();
+    (found.deviation > TOLD * size).then(|| {
+        let moved = significant(found.deviation, 3);
+        let share = significant(100.0 * found.deviation / size, 2);
+        format!(
+            "The curve moves by {moved}, {share} % of its size: keep less at its ends, or allow more extrema"
+        )
+    })
 }
 
 /// What an end keeps: what is chosen, and what its target or match requires; says if that is more.
