@@ -87,6 +87,10 @@ impl Piece {
         };
         let asked = PlaneFit {
             degree,
+            count: asked.count.map(|count| match is_whole {
+                true => count,
+                false => count.min(own.len()),
+            }),
             periodic: asked.periodic && is_whole,
             exact_ends: ends,
             directions: [0, 1].map(|end| asked.directions[end].filter(|_| outer[end])),

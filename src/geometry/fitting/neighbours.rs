@@ -116,23 +116,24 @@ pub fn corners(points: &[DVec2], periodic: bool) -> Vec<usize> {
 fn inner_corners(points: &[DVec2]) -> Vec<usize> {
     let chords: Vec<DVec2> = points.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let directions = unwrapped(&chords);
-    let turns: Vec<f64> = directions
-        .windows(2)
-        .map(|it| (it[1] - it[0]).abs())
-        .collect();
+    let turns: Vec<f64> = directions.windows(2).map(|it| it[1] - it[0]).collect();
     let (mut found, mut next) = (Vec::new(), 0);
-    while let Some(first) = (next..turns.len()).find(|turn| turns[*turn] > CORNER) {
-        let run = turns[first..].iter().take_while(|turn| **turn > CORNER);
+    while let Some(first) = (next..turns.len()).find(|turn| turns[*turn].abs() > CORNER) {
+        let run = turns[first..].iter().take_while(|turn| turn.abs() > CORNER);
         next = first + run.count();
-        // Corners beside each other, as at the end of a slab, turn by more than a bend that few points follow.
-        let is_slab = (first..next).len() <= MOST_BESIDE
-            && turns[first..next].iter().all(|turn| *turn > SLAB)
+        let run = &turns[first..next];
+        // Corners beside each other, as at the end of a slab, turn by more than a bend that few points follow; at a
+        // point that is off the direction comes back.
+        let comes_back = run.len() > 2 && run.iter().sum::<f64>().abs() < CORNER;
+        let is_slab = run.len() <= MOST_BESIDE
+            && !comes_back
+            && run.iter().all(|turn| turn.abs() > SLAB)
             && stands_out(&turns, first..next);
         let corners = (first..next).filter(|turn| is_slab || stands_out(&turns, *turn..turn + 1));
         found.extend(corners.map(|turn| turn + 1));
     }
     // Of the many sharp turns of noise few are corners.
-    let sharp = turns.iter().filter(|turn| **turn > CORNER).count();
+    let sharp = turns.iter().filter(|turn| turn.abs() > CORNER).count();
     let most = (points.len() / POINTS_A_CORNER + FEW_CORNERS).min(MOST_CORNERS);
     match found.len() > most && (found.len() as f64) < CLEAR * sharp as f64 {
         true => Vec::new(),
@@ -145,8 +146,8 @@ fn stands_out(turns: &[f64], run: Range<usize>) -> bool {
     let beside = [run.start.checked_sub(1), Some(run.end)];
     let beside = beside.into_iter().flatten();
     let beside = beside.filter_map(|turn| turns.get(turn));
-    let most = beside.fold(0.0_f64, |most, turn| most.max(*turn));
-    turns[run].iter().all(|turn| *turn > SHARPER * most)
+    let most = beside.fold(0.0_f64, |most, turn| most.max(turn.abs()));
+    turns[run].iter().all(|turn| turn.abs() > SHARPER * most)
 }
 
 /// Put a light point between each two points, on the cubic through two neighbours on each side, so that the curve
