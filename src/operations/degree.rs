@@ -1,12 +1,17 @@
-//! What the operations that change the degree share.
+//! What the operations share that let another polygon stand in for a curve's.
 
 use super::amount::Amount;
 use super::error::OperationError;
+use super::lists::given;
 use super::operands::Operands;
-use super::outcome::{Deviation, Outcome};
-use super::parameter::{Kind, Parameter};
+use super::outcome::{Deviation, Figure, Outcome};
+use super::parameter::{Kind, POSITIVE, Parameter};
+use super::values::Values;
 use crate::document::ParameterSpan;
-use crate::geometry::FloatPolygon;
+use crate::geometry::fairing::counts::CountRequest;
+use crate::geometry::fairing::requirement::Requirement;
+use crate::geometry::features::{Feature, Features};
+use crate::geometry::{Approximation, FloatPolygon, MAX_PART_SEGMENTS, Progress};
 
 /// The parameter that is the degree which the curve gets.
 pub(super) const fn degree(from: Amount, to: Amount, default: Amount) -> Parameter {
@@ -18,10 +23,183 @@ pub(super) const fn degree(from: Amount, to: Amount, default: Amount) -> Paramet
     }
 }
 
-/// Let the curve of this degree stand in for the curve: the same one, or one near it.
-pub(super) fn with_degree(input: &Operands, degree: usize) -> Result<Outcome, OperationError> {
+/// How far the new curve may be from the old one.
+pub(super) const TOLERANCE: Parameter = Parameter {
+    name: "tolerance",
+    label: "Tolerance",
+    help: "How far the curve may move; with it the vertices are as few as keep it",
+    kind: Kind::optional_number(POSITIVE, |_| "none"),
+};
+
+/// More vertices than these are told.
+const MANY: usize = 1000;
+
+/// The most vertices with which features are looked for that are not kept with fewer.
+const MOST_FOR_FEATURES: usize = 2000;
+
+/// The factor by which segments grow where features are not kept.
+const GROWTH: f64 = 1.3;
+
+/// The most and the fewest times as many segments that are tried next where the tolerance is missed.
+const NEXT: [f64; 2] = [1.05, 4.0];
+
+/// Let a curve of the degree asked for stand in for the curve: with as many segments, or with as few as keep the
+/// tolerance.
+pub(super) fn changed(
+    input: &Operands,
+    values: &Values,
+    degree: &Parameter,
+    progress: &Progress,
+) -> Result<Outcome, OperationError> {
+    let (polygon, degree) = (input.polygon()?, values.whole(degree));
+    match given(values, &TOLERANCE) {
+        None => instead(input, polygon.with_degree(degree)?),
+        tolerance => {
+            let goal = Goal {
+                degree,
+                segments: None,
+                least: polygon.segments(),
+                tolerance,
+            };
+            refitted(input, &goal, progress)
+        }
+    }
+}
+
+/// The polygon that is to stand in for a curve's.
+pub(super) struct Goal {
+    pub(super) degree: usize,
+    /// The number of segments; `None` for the fewest that keep the tolerance and the features.
+    pub(super) segments: Option<usize>,
+    /// The fewest segments.
+    pub(super) least: usize,
+    /// The largest deviation.
+    pub(super) tolerance: Option<f64>,
+}
+
+/// Let the nearest curve of a degree with as many segments as asked for, or as few as keep the tolerance, stand in for
+/// the curve. It must have the same features.
+pub(super) fn refitted(
+    input: &Operands,
+    goal: &Goal,
+    progress: &Progress,
+) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    curve.check_vertices_unlocked(curve.locked_vertices.iter())?;
+    let polygon = &curve.polygon;
+    let own = Shape::of(polygon, progress)?;
+    let found = match goal.segments {
+        Some(segments) => polygon.refitted(goal.degree, segments)?,
+        None => fewest(polygon, goal, &own, progress)?,
+    };
+    let vertices = found.polygon.vertices().len();
+    let limit = goal.tolerance.map(|most| Requirement::Limit {
+        found: found.deviation,
+        most,
+    });
+    let requirements = own.request().into_iter().chain(limit).collect();
+    let keeps = own.0.is_none() || Shape::of(&found.polygon, progress)? == own;
+    let mut outcome = instead(input, found)?;
+    if !keeps {
+        outcome.remarks.push(
+            "Inflections or extrema change: take more vertices, or another degree".to_owned(),
+        );
+    }
+    outcome.requirements = vec![(id, requirements)];
+    outcome
+        .figures
+        .push(Figure::count("vertices", "Vertices", vertices));
+    if vertices > MANY {
+        outcome.remarks.push(format!(
+            "The polygon has {vertices} vertices: a larger tolerance takes fewer"
+        ));
+    }
+    Ok(outcome)
+}
+
+/// The features that a new curve must have too, if all are known.
+#[derive(PartialEq)]
+struct Shape(Option<[usize; 4]>);
+
+impl Shape {
+    fn of(polygon: &FloatPolygon, progress: &Progress) -> Result<Self, OperationError> {
+        let features = Features::proved(polygon, |_| !progress.is_cancelled());
+        let features = features.ok_or(OperationError::Cancelled)?;
+        let is_known = features.undecided.is_empty() && features.cusps.is_empty();
+        let kinds = [
+            Feature::Inflection,
+            Feature::CurvatureExtremum,
+            Feature::TorsionZero,
+            Feature::TorsionExtremum,
+        ];
+        Ok(Self(
+            is_known.then(|| kinds.map(|kind| features.count(kind))),
+        ))
+    }
+
+    fn request(&self) -> Option<Requirement> {
+        let [inflections, extrema, zeros, torsion_extrema] = self.0?;
+        // A planar curve has no torsion, one in space no inflections.
+        let request =
+            CountRequest::exactly([inflections + zeros, extrema, torsion_extrema].map(Some));
+        Some(Requirement::Features {
+            stretch: None,
+            request,
+        })
+    }
+}
+
+/// The curve with the fewest segments that keeps the tolerance and the features, or the nearest tried.
+fn fewest(
+    polygon: &FloatPolygon,
+    goal: &Goal,
+    own: &Shape,
+    progress: &Progress,
+) -> Result<Approximation, OperationError> {
+    let tolerance = goal.tolerance.unwrap_or(f64::INFINITY);
+    let mut missed = goal.least.saturating_sub(1);
+    let mut found = polygon.refitted(goal.degree, goal.least)?;
+    let order = goal.degree as f64 + 1.0;
+    while found.deviation > tolerance {
+        if progress.is_cancelled() {
+            return Err(OperationError::Cancelled);
+        }
+        missed = found.polygon.segments();
+        // The deviation falls with the power n + 1 of the segments' length.
+        let factor = (found.deviation / tolerance).powf(order.recip());
+        let factor = factor.clamp(NEXT[0], NEXT[1]);
+        let next = (missed + 1).max((factor * missed as f64).ceil() as usize);
+        if next > MAX_PART_SEGMENTS {
+            return Ok(found);
+        }
+        found = polygon.refitted(goal.degree, next)?;
+    }
+    while found.polygon.segments() > missed + 1 {
+        if progress.is_cancelled() {
+            return Err(OperationError::Cancelled);
+        }
+        let middle = missed.midpoint(found.polygon.segments());
+        let tried = polygon.refitted(goal.degree, middle)?;
+        match tried.deviation <= tolerance {
+            true => found = tried,
+            false => missed = middle,
+        }
+    }
+    let kept = found.clone();
+    while Shape::of(&found.polygon, progress)? != *own {
+        let segments = found.polygon.segments();
+        let next = (segments + 1).max((GROWTH * segments as f64).round() as usize);
+        if own.0.is_none() || next > MOST_FOR_FEATURES {
+            return Ok(kept);
+        }
+        found = polygon.refitted(goal.degree, next)?;
+    }
+    Ok(found)
+}
+
+/// Replace the curve by an approximation whose parameter runs evenly along it.
+fn instead(input: &Operands, changed: Approximation) -> Result<Outcome, OperationError> {
     let polygon = input.polygon()?;
-    let changed = polygon.with_degree(degree)?;
     let deviation = Deviation::of(&changed);
     let whole = |polygon: &FloatPolygon| [0.0, polygon.segments() as f64];
     let span = ParameterSpan {

@@ -1,7 +1,7 @@
 //! A higher degree for the same curve.
 
 use super::amount::Amount;
-use super::degree::{degree, with_degree};
+use super::degree::{TOLERANCE, changed, degree};
 use super::editable::editable;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -27,7 +27,7 @@ pub static OPERATION: Operation = Operation {
     label: "Elevate degree",
     help: "Raise the degree; exact for a curve of one segment, otherwise a uniform curve near it",
     inputs: Inputs::One,
-    parameters: &[DEGREE],
+    parameters: &[DEGREE, TOLERANCE],
     check,
     unused: |_| &[],
     run,
@@ -42,8 +42,8 @@ fn check(input: &Operands) -> Result<(), OperationError> {
     Ok(())
 }
 
-fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
-    let mut outcome = with_degree(input, values.whole(&DEGREE))?;
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    let mut outcome = changed(input, values, &DEGREE, progress)?;
     if outcome.deviation != Deviation::Exact {
         let why = "With more than one segment, raising the degree would double the knots: a uniform curve can only approximate it";
         outcome.remarks.push(why.to_owned());

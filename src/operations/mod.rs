@@ -70,6 +70,7 @@ table! {
     reinterpret_degree,
     elevate_degree,
     reduce_degree,
+    refine,
     subdivide,
     extend,
     join,

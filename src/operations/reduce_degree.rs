@@ -1,7 +1,7 @@
 //! A lower degree for nearly the same curve.
 
 use super::amount::Amount;
-use super::degree::{degree, with_degree};
+use super::degree::{TOLERANCE, changed, degree};
 use super::editable::editable;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -20,7 +20,7 @@ pub static OPERATION: Operation = Operation {
     label: "Reduce degree",
     help: "Lower the degree; the result is a curve near this one",
     inputs: Inputs::One,
-    parameters: &[DEGREE],
+    parameters: &[DEGREE, TOLERANCE],
     check,
     unused: |_| &[],
     run,
@@ -33,6 +33,6 @@ fn check(input: &Operands) -> Result<(), OperationError> {
     Ok(())
 }
 
-fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
-    with_degree(input, values.whole(&DEGREE))
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    changed(input, values, &DEGREE, progress)
 }

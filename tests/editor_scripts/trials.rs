@@ -428,6 +428,7 @@ fn operations_are_offered_where_they_can_run() {
         ("reinterpret-degree", true),
         ("elevate-degree", true),
         ("reduce-degree", true),
+        ("refine", true),
         ("subdivide", true),
         ("extend", false),
         ("split", false),

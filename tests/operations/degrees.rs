@@ -1,10 +1,12 @@
 //! Operations on degree, segments and direction.
 
 use batten::document::{Curve, Edit};
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::{End, FloatPolygon, MAX_DEGREE};
 use batten::operations::{Deviation, Inputs, Value};
 use glam::DVec3;
 
+use crate::common::Random;
 use crate::runner::{ROUNDING, Runner, apart, beside, examples};
 
 fn degree(degree: usize) -> [(&'static str, Value); 1] {
@@ -193,8 +195,165 @@ fn other_curves_stay_as_they_are() {
     let other = Curve::new("other", Runner::example("hull").polygon().clone());
     let own = Runner::example("s-curve").curve().clone();
     let runner = Runner::curves(vec![own, other.clone()]);
-    for operation in ["reverse", "subdivide", "elevate-degree", "split", "round"] {
+    for operation in [
+        "reverse",
+        "refine",
+        "subdivide",
+        "elevate-degree",
+        "split",
+        "round",
+    ] {
         let (_, curves) = runner.done(operation, &[]);
         assert_eq!(curves[1], other, "{operation}");
     }
+}
+
+/// A fair curve: a turn that grows evenly along legs of one length.
+fn fair(random: &mut Random, degree: usize, count: usize) -> FloatPolygon {
+    let (mut angle, mut turn) = (0.0_f64, random.between(0.4, 6.0) / count as f64);
+    let growth = random.between(-0.2, 0.4) / (count * count) as f64;
+    let mut place = DVec3::ZERO;
+    let vertices = (0..count).map(|_| {
+        place += DVec3::new(angle.cos(), angle.sin(), 0.0);
+        angle += turn;
+        turn += growth;
+        place
+    });
+    FloatPolygon::new(degree, vertices.collect(), None, false).expect("a polygon")
+}
+
+fn counts(polygon: &FloatPolygon) -> [usize; 4] {
+    let features = Features::new(polygon);
+    [
+        Feature::Inflection,
+        Feature::CurvatureExtremum,
+        Feature::TorsionZero,
+        Feature::TorsionExtremum,
+    ]
+    .map(|kind| features.count(kind))
+}
+
+/// How far a curve is from another one that runs evenly along it, at most, and what its ends do not keep.
+fn off(before: &FloatPolygon, after: &FloatPolygon) -> [f64; 2] {
+    let pace = after.segments() as f64 / before.segments() as f64;
+    let apart = apart(before, after, |u| pace * u);
+    let missed = End::BOTH.map(|end| {
+        let [old, new] = [before, after].map(|it| it.end_jet(end));
+        let turned = old.first.normalize().cross(new.first.normalize());
+        old.point.distance(new.point) + turned.length()
+    });
+    [apart, missed[0].max(missed[1])]
+}
+
+#[test]
+fn refining_keeps_the_curve_its_ends_and_its_features() {
+    let mut random = Random(12);
+    for trial in 0..60 {
+        let degree = 4 + trial % 6;
+        let count = 11 + (random.bits() % 50) as usize;
+        let runner = Runner::of(fair(&mut random, degree, count));
+        let before = runner.polygon();
+        let size = before.size();
+        let (outcome, curves) = runner.done("refine", &[]);
+        let after = &curves[0].polygon;
+        let [apart, missed] = off(before, after);
+        let told = format!("degree {degree}, {count} vertices: {outcome:?}");
+        assert_eq!(after.vertices().len(), count + 1, "{told}");
+        assert!(
+            apart <= 2e-4 * size && missed <= 1e-9,
+            "{apart:e} {missed:e}"
+        );
+        assert_eq!(counts(after), counts(before), "{told}");
+        let Deviation::AtMost(bound) = outcome.deviation else {
+            panic!("{told}");
+        };
+        assert!(apart <= bound * (1.0 + 1e-9), "{apart:e} {bound:e}");
+    }
+}
+
+#[test]
+fn refining_takes_as_few_vertices_as_keep_a_tolerance() {
+    let mut random = Random(13);
+    for degree in 5..=8 {
+        let runner = Runner::of(fair(&mut random, degree, 20));
+        let before = runner.polygon();
+        let tolerance = 1e-9 * before.size();
+        let given = [("tolerance", Value::List(vec![tolerance]))];
+        let (_, curves) = runner.done("refine", &given);
+        let after = &curves[0].polygon;
+        assert!(off(before, after)[0] <= tolerance);
+        let fewer = after.segments() - 1;
+        if fewer > before.segments() {
+            let fewer = before.refitted(degree, fewer).expect("a curve");
+            assert!(fewer.deviation > tolerance, "{fewer:?}");
+        }
+        // A degree more and one less take more of them.
+        for (operation, changed) in [
+            ("elevate-degree", degree + 1),
+            ("reduce-degree", degree - 1),
+        ] {
+            let given = [&given[..], &[("degree", Value::Whole(changed))]].concat();
+            let (_, curves) = runner.done(operation, &given);
+            let other = &curves[0].polygon;
+            assert_eq!(other.degree(), changed);
+            let [apart, missed] = off(before, other);
+            assert!(
+                apart <= tolerance && missed <= 1e-9,
+                "{operation}: {apart:e} {missed:e}"
+            );
+            assert_eq!(counts(other), counts(before), "{operation}");
+        }
+    }
+}
+
+#[test]
+fn refining_works_for_every_kind_of_curve() {
+    for (name, runner) in examples() {
+        let before = runner.polygon();
+        let (outcome, after) = match runner.run("refine", &[]) {
+            Ok(outcome) => {
+                let input = runner.input_of(batten::operations::find("refine").expect("one"));
+                let after = outcome.applied_to(input.document()).expect("edits");
+                let (_, curve) = after.curves().next().expect("a curve");
+                (outcome.clone(), curve.polygon.clone())
+            }
+            Err(error) => panic!("{name}: {error}"),
+        };
+        let [apart, missed] = off(before, &after);
+        assert_eq!(
+            after.vertices().len(),
+            before.vertices().len() + 1,
+            "{name}"
+        );
+        assert_eq!(after.is_periodic(), before.is_periodic(), "{name}");
+        if !before.is_periodic() {
+            assert!(missed <= 1e-9, "{name}: {missed:e}");
+        }
+        let bound = match outcome.deviation {
+            Deviation::AtMost(bound) => bound,
+            Deviation::Exact => 0.0,
+            other => panic!("{name}: {other:?}"),
+        };
+        let rounding = 1e-12 * before.size();
+        assert!(
+            apart <= bound * (1.0 + 1e-6) + rounding,
+            "{name}: {apart:e} {bound:e}"
+        );
+        // What is not the same in kind is not reached.
+        assert_eq!(outcome.reached, counts(before) == counts(&after), "{name}");
+        let twice = 2 * before.segments() + before.vertices().len() - before.segments();
+        let count = [("count", Value::List(vec![twice as f64]))];
+        let (outcome, curves) = runner.done("refine", &count);
+        assert_eq!(outcome.deviation, Deviation::Exact, "{name}");
+        assert_eq!(
+            curves[0].polygon,
+            before.subdivided().expect("halved"),
+            "{name}"
+        );
+    }
+    let runner = Runner::example("hull");
+    let has = runner.polygon().vertices().len();
+    let fewer = [("count", Value::List(vec![(has - 1) as f64]))];
+    let refused = runner.refused("refine", &fewer);
+    assert!(refused.contains(&format!("{has} or more")), "{refused}");
 }

@@ -82,6 +82,7 @@ fn the_largest_move_is_told_where_vertices_have_counterparts() {
         "split",
         "trim",
         "elevate-degree",
+        "refine",
     ] {
         assert_eq!(
             runner.report(operation, &[]).largest_move,
