@@ -10,7 +10,7 @@ use super::message::sentence;
 use super::steady_rows::SteadyRows;
 use super::theme::Tokens;
 use super::trade_off::TradeOff;
-use super::{figures, widgets};
+use super::{document_unit, figures, widgets};
 use crate::editor::OperationInProgress;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::rounded_up;
@@ -54,7 +54,7 @@ impl ReportView {
         let clicked = self.trade_off_ui(ui, in_progress, report);
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            for (name, figure) in self.figures.in_place(figures_of(report)) {
+            for (name, figure) in self.figures.in_place(figures_of(ui, report)) {
                 let figure = figure.unwrap_or_else(|| "–".to_owned());
                 widgets::figure_row(ui, name, &figure);
             }
@@ -119,12 +119,12 @@ pub fn summary_ui(ui: &mut Ui, in_progress: &OperationInProgress) {
         if in_progress.is_pending() {
             ui.multiply_opacity(OUTDATED);
         }
-        let deviation = report.and_then(deviation);
+        let deviation = report.and_then(|report| deviation(ui, report));
         widgets::figure_row(ui, "Deviation", &deviation.unwrap_or_else(dash));
         if let Some(report) = report.filter(|report| report.equivalence.is_some()) {
             widgets::figure_row(ui, "Shape", &shape(report));
         } else {
-            let largest = report.and_then(largest_move);
+            let largest = report.and_then(|report| largest_move(ui, report));
             widgets::figure_row(ui, "Largest move", &largest.unwrap_or_else(dash));
         }
         match report.filter(|report| report.useful) {
@@ -135,24 +135,27 @@ pub fn summary_ui(ui: &mut Ui, in_progress: &OperationInProgress) {
 }
 
 /// How far the curve moves, in words.
-fn deviation(report: &Report) -> Option<String> {
+fn deviation(ui: &Ui, report: &Report) -> Option<String> {
     Some(match report.deviation {
         _ if !report.useful => return None,
         Deviation::Exact => "none, exact".to_owned(),
         Deviation::AtMost(0.0) => "none".to_owned(),
-        Deviation::AtMost(bound) => format!("at most {}", rounded_up(bound)),
-        Deviation::Measured(sampled) => format!("{}, sampled", length(sampled)),
-        Deviation::FromPoints(measured) => length(measured),
+        Deviation::AtMost(bound) => {
+            let bound = document_unit::length(ui.ctx(), rounded_up(bound));
+            format!("at most {bound}")
+        }
+        Deviation::Measured(sampled) => format!("{}, sampled", length(ui, sampled)),
+        Deviation::FromPoints(measured) => length(ui, measured),
         Deviation::Unmeasured => "another curve, not measured".to_owned(),
     })
 }
 
 /// How far the vertex moves that moves most, in words.
-fn largest_move(report: &Report) -> Option<String> {
+fn largest_move(ui: &Ui, report: &Report) -> Option<String> {
     let largest = report.largest_move?;
     Some(match largest.distance {
         0.0 => "none".to_owned(),
-        distance => format!("{} at vertex {}", length(distance), largest.vertex),
+        distance => format!("{} at vertex {}", length(ui, distance), largest.vertex),
     })
 }
 
@@ -164,26 +167,27 @@ fn shape(report: &Report) -> String {
     }
 }
 
-fn length(value: f64) -> String {
-    figures::significant(value, 4)
+fn length(ui: &Ui, value: f64) -> String {
+    document_unit::length(ui.ctx(), figures::significant(value, 4))
 }
 
 /// The figures beside those of the summary, by their names.
-fn figures_of(report: &Report) -> Vec<(&'static str, String)> {
+fn figures_of(ui: &Ui, report: &Report) -> Vec<(&'static str, String)> {
     let residual = report
         .residual
-        .map(|residual| ("Residual", length(residual)));
+        .map(|residual| ("Residual", length(ui, residual)));
     let figures = report.figures.iter();
     // A table has a plot of its own.
     let figures = figures.filter(|figure| !matches!(figure.value, Value::Table { .. }));
-    let figures = figures.map(|figure| (figure.label, figure_text(figure)));
+    let figures = figures.map(|figure| (figure.label, figure_text(ui, figure)));
     residual.into_iter().chain(figures).collect()
 }
 
-fn figure_text(figure: &Figure) -> String {
+fn figure_text(ui: &Ui, figure: &Figure) -> String {
     match &figure.value {
         Value::Whole(number) => number.to_string(),
         Value::Real(number) if figure.quantity == Quantity::Angle => figures::degrees(*number, 4),
+        Value::Real(number) if figure.quantity == Quantity::Length => length(ui, *number),
         Value::Real(number) => figures::significant(*number, 4),
         Value::Choice(index) => index.to_string(),
         Value::List(numbers) => joined(numbers, |number| figures::significant(*number, 4)),
