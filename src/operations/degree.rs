@@ -188,7 +188,14 @@ fn fewest(
     let kept = found.clone();
     while Shape::of(&found.polygon, progress)? != *own {
         let segments = found.polygon.segments();
-        let next = (segments + 1).max((GROWTH * segments as f64).round() as usize);
+        let grown = (segments + 1).max((GROWTH * segments as f64).round() as usize);
+        // Halved segments give the curve itself, and so its features.
+        let halved = (1..usize::BITS).map(|halvings| polygon.segments() << halvings);
+        let halved = halved.filter(|_| goal.degree == polygon.degree());
+        let next = halved
+            .take_while(|halved| *halved <= grown)
+            .find(|halved| *halved > segments)
+            .unwrap_or(grown);
         if own.0.is_none() || next > MOST_FOR_FEATURES {
             return Ok(kept);
         }

@@ -1,5 +1,7 @@
 //! Operations on degree, segments and direction.
 
+use std::collections::BTreeMap;
+
 use batten::document::{Curve, Edit};
 use batten::geometry::features::{Feature, Features};
 use batten::geometry::{End, FloatPolygon, MAX_DEGREE};
@@ -208,6 +210,9 @@ fn other_curves_stay_as_they_are() {
     }
 }
 
+/// The most curvature extrema of a fair curve.
+const MOST_OF_A_FAIR_CURVE: usize = 8;
+
 /// A fair curve: a turn that grows evenly along legs of one length.
 fn fair(random: &mut Random, degree: usize, count: usize) -> FloatPolygon {
     let (mut angle, mut turn) = (0.0_f64, random.between(0.4, 6.0) / count as f64);
@@ -303,6 +308,78 @@ fn refining_takes_as_few_vertices_as_keep_a_tolerance() {
             );
             assert_eq!(counts(other), counts(before), "{operation}");
         }
+    }
+}
+
+#[test]
+fn five_hundred_fair_curves_are_kept_by_more_and_by_fewer_vertices() {
+    let mut random = Random(500);
+    // By way and whether the degree is 3: how far off, and how many keep their features.
+    let mut kept: BTreeMap<(&str, bool), (Vec<f64>, usize)> = BTreeMap::new();
+    for trial in 0..500 {
+        let degree = 3 + trial % 7;
+        let least = 8.max(degree + 1);
+        let count = least + random.bits() as usize % (61 - least);
+        // A cubic whose turns hardly grow has extrema in every segment, and with more segments more.
+        let curves = std::iter::repeat_with(|| fair(&mut random, degree, count));
+        let mut fair = curves.filter(|polygon| counts(polygon)[1] <= MOST_OF_A_FAIR_CURVE);
+        let runner = Runner::of(fair.next().expect("a fair curve"));
+        let before = runner.polygon();
+        let tolerance = ("tolerance", Value::List(vec![1e-9 * before.size()]));
+        let operated = |name, given: &[(&str, Value)]| {
+            let outcome = runner.run(name, given).expect("an outcome");
+            let document = outcome.applied_to(runner.input.document()).expect("edits");
+            let (_, curve) = document.curves().next().expect("a curve");
+            let same = counts(&curve.polygon) == counts(before);
+            assert_eq!(outcome.reached, same, "{outcome:?}");
+            Some(curve.polygon.clone())
+        };
+        let fewer = before.segments().checked_sub(1).filter(|it| *it > 0);
+        let higher = ("degree", Value::Whole(degree + 1));
+        let results = [
+            (
+                "insert",
+                before
+                    .refitted(degree, before.segments() + 1)
+                    .ok()
+                    .map(|it| it.polygon),
+            ),
+            (
+                "delete",
+                fewer.and_then(|fewer| Some(before.refitted(degree, fewer).ok()?.polygon)),
+            ),
+            (
+                "refine",
+                operated("refine", std::slice::from_ref(&tolerance)),
+            ),
+            ("elevate", operated("elevate-degree", &[tolerance, higher])),
+        ];
+        for (way, after) in results {
+            let Some(after) = after else { continue };
+            let [apart, missed] = off(before, &after);
+            assert!(missed <= 1e-9, "{way}: {missed:e}");
+            let (offs, features) = kept.entry((way, degree == 3)).or_default();
+            offs.push(apart / before.size());
+            *features += usize::from(counts(&after) == counts(before));
+        }
+    }
+    for ((way, is_cubic), (mut offs, features)) in kept {
+        offs.sort_by(f64::total_cmp);
+        let (tried, at_95) = (offs.len(), offs[offs.len() * 95 / 100]);
+        let worst = offs[tried - 1];
+        println!(
+            "{way}, cubic {is_cubic}: {features} of {tried} keep features, 95 % {at_95:.1e}, worst {worst:.1e}"
+        );
+        match way {
+            "insert" => assert!(at_95 <= 2e-4, "{at_95:e}"),
+            "refine" => assert!(worst <= 1e-9 && features == tried),
+            "elevate" => assert!(worst <= 1e-9 && (is_cubic || features == tried)),
+            _ => {}
+        }
+        assert!(
+            is_cubic || way == "delete" || 100 * features >= 95 * tried,
+            "{way}"
+        );
     }
 }
 
