@@ -9,6 +9,7 @@ mod operating;
 mod polygon_edits;
 mod reply;
 mod report;
+mod same_shape;
 mod selection;
 mod view;
 mod workspace;

@@ -45,6 +45,20 @@ pub fn deletion(id: CurveId, curve: &Curve, indices: &[usize]) -> Result<Edit, E
     })
 }
 
+/// The edit that takes another polygon whose curve runs evenly along a curve's.
+pub fn replacement(id: CurveId, curve: &Curve, polygon: FloatPolygon) -> Edit {
+    let whole = |polygon: &FloatPolygon| [0.0, polygon.segments() as f64];
+    let evenly = ParameterSpan {
+        old: whole(&curve.polygon),
+        new: whole(&polygon),
+    };
+    Edit::Renumber {
+        curve: id,
+        renumbering: Renumbering::of_parameters(curve, &polygon, vec![evenly]),
+        polygon,
+    }
+}
+
 /// Insert a vertex so that it gets number `index`; its weight is the geometric mean of its neighbours'.
 ///
 /// # Errors

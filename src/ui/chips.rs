@@ -11,12 +11,13 @@ use crate::editor::{Command, Editor, Follow};
 type Chip = (Command, &'static str, f32);
 
 /// The chips from left to right. Their widths are fixed, so that a switch moves none of its neighbours.
-const CHIPS: [Chip; 5] = [
+const CHIPS: [Chip; 6] = [
     (Command::Follow(Follow::InHarmony), "Harmony", 54.0),
     (Command::Follow(Follow::Softly), "Soft", 34.0),
     (Command::ToggleKeeping, "Features", 54.0),
     (Command::ToggleSnapping, "Snap", 38.0),
     (Command::ToggleClosedFollow, "Closed", 46.0),
+    (Command::ToggleKeepShape, "Keep shape", 70.0),
 ];
 
 /// The width that all chips take, with the space between them.

@@ -64,6 +64,7 @@ fn of_command(command: Command) -> Option<Icon> {
         Command::Follow(Follow::InHarmony) => Icon::Waves,
         Command::ToggleClosedFollow => Icon::Link,
         Command::Follow(Follow::Softly) => Icon::Blend,
+        Command::ToggleKeepShape => Icon::Spline,
         Command::ToggleKeeping => Icon::ShieldCheck,
         Command::ToggleLayer(layer) => of_layer(layer),
         Command::Tool(tool) => of_tool(tool),

@@ -159,6 +159,7 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         command(Command::Follow(Follow::InHarmony)),
         command(Command::Follow(Follow::Softly)),
         command(Command::ToggleClosedFollow),
+        command(Command::ToggleKeepShape),
         command(Command::ToggleKeeping),
         Divider,
         Entry::Submenu("Document unit", units()),

@@ -190,6 +190,7 @@ fn locks_keep_to_their_vertices_where_others_come_and_go() {
     };
     let before = places(&script);
     let start = script.editor.document().clone();
+    script.command(Command::ToggleKeepShape);
 
     // A vertex inserted before them, and one added at the start.
     script.command(Command::Tool(ToolKind::Insert));

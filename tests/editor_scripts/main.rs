@@ -26,6 +26,7 @@ mod generating;
 mod guides;
 mod harmony;
 mod joining;
+mod keep_shape;
 mod keeping;
 mod laws;
 mod locking;

@@ -668,6 +668,7 @@ fn vertex_tools_on_a_source_keep_the_matched_place_and_the_locks() {
         let [old, follower] = [0, 1].map(|index| curve(&script, ids[index]));
         let point = old.polygon.point(6.25);
 
+        script.command(Command::ToggleKeepShape);
         script.editor.activate(ids[0]);
         script.tool(tool);
         let [first, second] = [0, 1].map(|vertex| old.polygon.vertex(vertex));

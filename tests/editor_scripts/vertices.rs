@@ -25,6 +25,7 @@ fn the_add_tool_adds_at_the_nearer_end() {
 fn the_insert_tool_splits_the_leg_under_the_pointer() {
     let mut script = Script::example("arc");
     let before = script.polygon();
+    script.command(Command::ToggleKeepShape);
     script.tool(ToolKind::Insert);
     let middle = 0.5 * (script.at_vertex(3) + script.at_vertex(4));
     script.click(middle);

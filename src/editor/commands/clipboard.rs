@@ -60,7 +60,7 @@ impl Editor {
         copied
     }
 
-    /// Copy the selected vertices and remove them, or the active reference, as one step. The message shows
+    /// Copy the selected vertices and remove just them, or the active reference, as one step. The message shows
     /// the result.
     ///
     /// # Errors
@@ -71,7 +71,7 @@ impl Editor {
         let whole = self.active_reference();
         let reply = copied.clone().and_then(|_| match whole {
             Some((id, _)) => self.change(Edit::Remove(id)),
-            None => self.delete("Cut", "cut"),
+            None => self.delete("Cut", "cut", true),
         });
         self.tell(reply)?;
         copied

@@ -4,6 +4,7 @@ use crate::document::CurveId;
 use crate::editor::hand::following::Follow;
 use crate::editor::hand::input::{Key, Modifiers};
 use crate::editor::hand::tools::ToolKind;
+use crate::editor::same_shape::KEEP_SHAPE;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::{CurvatureDisplay, NamedView};
 use crate::geometry::expressions::LengthUnit;
@@ -73,6 +74,8 @@ pub enum Command {
     Follow(Follow),
     /// Let the other closed vertices follow a dragged one, or stay.
     ToggleClosedFollow,
+    /// Let inserting and deleting vertices keep the curve, or the other vertices.
+    ToggleKeepShape,
     /// Let no drag add a feature, or let drags be free.
     ToggleKeeping,
     /// Take a tool into the hand.
@@ -133,6 +136,7 @@ impl Command {
                 | Self::ToggleSnapping
                 | Self::Follow(_)
                 | Self::ToggleClosedFollow
+                | Self::ToggleKeepShape
                 | Self::ToggleKeeping
         )
     }
@@ -171,7 +175,7 @@ impl Command {
         all.extend(CurvatureDisplay::ALL.map(Self::ShowCurvature));
         all.extend([Self::ToggleSnapping, Self::ToggleKeeping]);
         all.extend(Follow::ALL.map(Self::Follow));
-        all.push(Self::ToggleClosedFollow);
+        all.extend([Self::ToggleClosedFollow, Self::ToggleKeepShape]);
         all.extend(ToolKind::ALL.map(Self::Tool));
         all
     }
@@ -213,6 +217,7 @@ impl Command {
             Self::ToggleSnapping => "Snapping",
             Self::Follow(follow) => follow.label(),
             Self::ToggleClosedFollow => "Closed vertices follow",
+            Self::ToggleKeepShape => KEEP_SHAPE,
             Self::ToggleKeeping => "Keep features",
             Self::Tool(tool) => tool.label(),
         };
@@ -266,6 +271,9 @@ impl Command {
             Self::Follow(follow) => follow.tooltip(),
             Self::ToggleClosedFollow => {
                 "Let the other vertices of the closed S-polygon follow a dragged one, or stay"
+            }
+            Self::ToggleKeepShape => {
+                "Let inserting and deleting a vertex keep the curve, or the places of the others"
             }
             Self::ToggleKeeping => {
                 "Let no edit of vertices add a curvature extremum or an inflection"

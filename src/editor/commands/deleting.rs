@@ -1,30 +1,41 @@
 //! Removing vertices and curves: never one by a command that is meant for the other.
 
-use crate::document::{Document, Edit, EditError, quoted};
+use crate::document::{Document, Edit, quoted};
 use crate::editor::Editor;
 use crate::editor::commands::command::Command;
-use crate::editor::polygon_edits::deletion;
 use crate::editor::reply::{Note, Reply};
+use crate::editor::same_shape::removal;
 use crate::editor::selection::Selection;
 use crate::geometry::counted;
 
 impl Editor {
-    /// Remove the selected vertices, or the active reference, which has none.
-    pub(in crate::editor) fn delete(&mut self, verb: &str, done: &str) -> Reply {
+    /// Remove the selected vertices, or the active reference, which has none. The others stay in their places, or all
+    /// move so that the curve keeps its shape.
+    pub(in crate::editor) fn delete(
+        &mut self,
+        verb: &str,
+        done: &str,
+        vertices_stay: bool,
+    ) -> Reply {
         let active = self.active().filter(|_| self.hand.selection.is_empty());
         if let Some(id) = active.filter(|id| self.document().reference(*id).is_some()) {
             return self.change(Edit::Remove(id));
         }
-        let edits = edits(&self.hand.selection, self.document())?;
+        let (edits, told) = edits(&self.hand.selection, self.document(), vertices_stay)?;
         let count = counted(self.hand.selection.vertices().len(), "vertex", "vertices");
         self.apply(&format!("{verb} {count}"), edits)?;
         self.hand.selection.clear();
-        Ok(Note::done(format!("{count} {done}")))
+        let told = [vec![format!("{count} {done}")], told].concat();
+        Ok(Note::done(told.join("; ")))
     }
 }
 
-/// The edits that remove the selected vertices. A curve is never removed that way.
-fn edits(selection: &Selection, document: &Document) -> Result<Vec<Edit>, String> {
+/// The edits that remove the selected vertices, and what they do to the curves. A curve is never removed that way.
+fn edits(
+    selection: &Selection,
+    document: &Document,
+    vertices_stay: bool,
+) -> Result<(Vec<Edit>, Vec<String>), String> {
     if selection.is_empty() {
         let active = selection.active().and_then(|id| document.name(id));
         let Some(name) = active else {
@@ -36,7 +47,7 @@ fn edits(selection: &Selection, document: &Document) -> Result<Vec<Edit>, String
             Command::DeleteCurve.label()
         ));
     }
-    let mut edits = Vec::new();
+    let (mut edits, mut told) = (Vec::new(), Vec::new());
     for (id, curve) in document.curves() {
         let indices: Vec<usize> = selection.of_curve(id).collect();
         if indices.is_empty() {
@@ -52,12 +63,9 @@ fn edits(selection: &Selection, document: &Document) -> Result<Vec<Edit>, String
                 Command::DeleteCurve.label()
             ));
         }
-        edits.push(
-            deletion(id, curve, &indices).map_err(|refused| match refused {
-                EditError::Polygon { .. } => format!("{refused}; lower its degree first"),
-                refused => refused.to_string(),
-            })?,
-        );
+        let (edit, curve_told) = removal(id, curve, &indices, vertices_stay)?;
+        edits.push(edit);
+        told.extend(curve_told);
     }
-    Ok(edits)
+    Ok((edits, told))
 }

@@ -132,6 +132,7 @@ impl Editor {
                 let following = &mut self.hand.following;
                 following.closed_stay = !following.closed_stay;
             }
+            Command::ToggleKeepShape => self.hand.settings.vertices_stay ^= true,
             Command::ToggleKeeping => self.hand.keeps = !self.hand.keeps,
             _ => {}
         }
@@ -139,7 +140,10 @@ impl Editor {
 
     fn execute_idle(&mut self, command: Command) -> Reply {
         match command {
-            Command::Delete => return self.delete("Delete", "deleted"),
+            Command::Delete => {
+                let vertices_stay = self.hand.settings.vertices_stay;
+                return self.delete("Delete", "deleted", vertices_stay);
+            }
             Command::ToggleVerticesLocked => {
                 let selection = &self.hand.selection;
                 let count = counted(selection.vertices().len(), "vertex", "vertices");

@@ -62,6 +62,7 @@ impl Command {
             Command::ToggleSnapping => Some(editor.hand.snapping),
             Command::Follow(follow) => Some(editor.hand.following.follow == Some(follow)),
             Command::ToggleClosedFollow => Some(!editor.hand.following.closed_stay),
+            Command::ToggleKeepShape => Some(!editor.hand.settings.vertices_stay),
             Command::ToggleKeeping => Some(editor.hand.keeps),
             Command::Tool(tool) => Some(editor.hand.tool() == tool),
             Command::Operation(operation) => {

@@ -53,9 +53,10 @@ impl Hand {
     /// Forget the selection and the settings of a document; the tool stays in use, and the way of drawing.
     pub(in crate::editor) fn begin_document(&mut self) {
         self.selection = Selection::default();
-        let way = self.settings.draw.way;
+        let (way, vertices_stay) = (self.settings.draw.way, self.settings.vertices_stay);
         self.settings = ToolSettings::default();
         self.settings.draw.way = way;
+        self.settings.vertices_stay = vertices_stay;
         self.use_tool(self.tool());
         self.gestures.reset();
     }

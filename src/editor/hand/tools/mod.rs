@@ -1,5 +1,6 @@
 //! The table of tools, and the tools: state machines from gestures to effects.
 
+mod delete;
 mod draw;
 mod draw_way;
 mod end_fit;
@@ -29,12 +30,13 @@ pub use transformed::Transformed;
 pub(in crate::editor) use draw::drawn_degree;
 pub(in crate::editor) use transform::pivot;
 
+use delete::DeleteTool;
 use draw::DrawTool;
 use end_fit::EndFitTool;
 use measure::MeasureTool;
 use select::SelectTool;
 use transform::TransformTool;
-use vertices::{DeleteTool, NewVertex, NewVertexTool};
+use vertices::{NewVertex, NewVertexTool};
 
 /// Hold the tool in use.
 #[derive(Debug)]
@@ -139,7 +141,7 @@ static TOOLS: &[ToolRow] = &[
     .made_by(|| Box::new(NewVertexTool::new(NewVertex::IntoLeg))),
     row(ToolKind::Delete, 'x', "Delete vertex", "eraser")
         .help("Delete the vertices you click")
-        .made_by(|| Box::new(DeleteTool)),
+        .made_by(|| Box::new(DeleteTool::default())),
     row(ToolKind::Draw, 'd', "Draw curve", "waypoints")
         .help("Draw a new curve by the vertices of its float S-polygon")
         .made_by(|| Box::new(DrawTool::default())),
@@ -172,7 +174,7 @@ const fn row(tool: ToolKind, key: char, label: &'static str, icon: &'static str)
         icon,
         starts_group: false,
         has_panel: false,
-        make: || Box::new(DeleteTool),
+        make: || Box::new(DeleteTool::default()),
     }
 }
 

@@ -12,6 +12,8 @@ use crate::editor::hand::end_fit::{EndFitSettings, LastAction};
 pub struct ToolSettings {
     /// How the draw tool makes curves.
     pub draw: DrawSettings,
+    /// Whether inserting and deleting leave the other vertices in their places, instead of the curve in its shape.
+    pub vertices_stay: bool,
     /// The locked length or direction of the leg that is drawn.
     pub locks: LegLocks,
     /// Where the user has put the pivot of rotations and scalings; `None` while it follows the selection.

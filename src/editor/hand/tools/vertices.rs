@@ -1,20 +1,21 @@
-//! Tools that change the number of vertices: add at an end, insert into a leg, delete.
+//! Tools that make new vertices: at an end, or into a leg.
 
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use super::tool::{Context, Effect, Entry, Tool};
-use crate::document::{Curve, CurveId, quoted};
+use crate::document::{Curve, CurveId};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::hand::typed_point::{EntryError, TypedPoint};
-use crate::editor::polygon_edits::{deletion, inserted, insertion};
+use crate::editor::polygon_edits::{inserted, insertion, replacement};
+use crate::editor::same_shape::{LastSameShape, SameShape};
 use crate::editor::view::hit::LegHit;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
-use crate::geometry::{End, FloatPolygon};
+use crate::geometry::{End, FloatPolygon, PolygonError};
 
 /// Legs are found from this far, in screen points, when a vertex shall be inserted.
 const LEG_REACH: f64 = 24.0;
@@ -28,6 +29,7 @@ pub struct NewVertexTool {
     place: NewVertex,
     /// The vertex that is dragged until the button is released.
     dragged: Option<Adding>,
+    last_shape: LastSameShape,
 }
 
 /// Where a new vertex goes.
@@ -50,6 +52,10 @@ struct Adding {
     like: DVec3,
     /// Where the leg begins that is drawn.
     base: DVec3,
+    /// The polygon with it that keeps the shape, unless the other vertices stay.
+    same: Option<Arc<SameShape>>,
+    /// Where a drag began of a vertex that keeps the shape, and so was not under the pointer.
+    pressed: Option<DVec2>,
 }
 
 impl Adding {
@@ -78,36 +84,64 @@ impl Adding {
             index,
             like,
             base: like,
+            same: None,
+            pressed: None,
         })
     }
 
     /// The vertex that is inserted into a leg.
-    fn into_leg(hit: LegHit, context: &Context) -> Result<Self, String> {
+    fn into_leg(
+        hit: LegHit,
+        last_shape: &LastSameShape,
+        context: &Context,
+    ) -> Result<Self, String> {
         let curve = context.document.curve(hit.curve).ok_or_else(String::new)?;
         curve.check_editable().map_err(|error| error.to_string())?;
         let vertices = curve.polygon.vertices();
         let to = vertices.iter().cycle().nth(hit.index + 1);
         let (from, to) = vertices.get(hit.index).zip(to).ok_or_else(String::new)?;
+        let same = match context.settings.vertices_stay {
+            true => None,
+            false => Some(last_shape.of(curve, 1)?),
+        };
+        let index = hit.index + 1;
+        let like = same.as_ref().map(|same| same.polygon.vertex(index));
         Ok(Self {
             id: hit.curve,
             curve: curve.clone(),
-            index: hit.index + 1,
-            like: from.lerp(*to, hit.share),
+            index,
+            like: like.unwrap_or(from.lerp(*to, hit.share)),
             base: *from,
+            same,
+            pressed: None,
         })
     }
 
-    /// The vertex that is meant by a place of the view plane.
+    /// The vertex that is meant by a place of the view plane. What keeps the shape stands where it must.
     fn vertex_at(&self, at: DVec2, context: &Context) -> DVec3 {
-        let by = at - context.viewport.flatten(self.like);
-        let free = self.like + context.movement(by, self.curve.polygon.is_planar());
-        let locks = context.settings.locks;
-        locks.constrained(self.base, free, &context.drawing_plane())
+        match self.same {
+            Some(_) => self.like,
+            None => self.moved_to(at, context),
+        }
     }
 
     /// The vertex where a drag is. It was not there before, so every vertex may attract it.
     fn dragged_to(&self, at: DVec2, context: &Context) -> DVec3 {
-        self.vertex_at(context.snapped(at, &Carried::default()), context)
+        let at = match self.pressed {
+            Some(pressed) => context.viewport.flatten(self.like) + (at - pressed),
+            None => at,
+        };
+        self.moved_to(context.snapped(at, &Carried::default()), context)
+    }
+
+    fn moved_to(&self, at: DVec2, context: &Context) -> DVec3 {
+        let by = at - context.viewport.flatten(self.like);
+        if by == DVec2::ZERO {
+            return self.like;
+        }
+        let free = self.like + context.movement(by, self.curve.polygon.is_planar());
+        let locks = context.settings.locks;
+        locks.constrained(self.base, free, &context.drawing_plane())
     }
 
     fn typed_vertex(&self, typed: TypedPoint, context: &Context) -> Result<DVec3, EntryError> {
@@ -115,16 +149,37 @@ impl Adding {
     }
 
     fn preview(&self, vertex: DVec3) -> Effect {
-        let edit = insertion(self.id, &self.curve, self.index, vertex);
+        let edit = match &self.same {
+            None => insertion(self.id, &self.curve, self.index, vertex),
+            Some(_) => {
+                let polygon = self.polygon(vertex);
+                polygon.map(|polygon| replacement(self.id, &self.curve, polygon))
+            }
+        };
         Effect::preview(edit.map(|edit| vec![edit]))
+    }
+
+    /// The polygon with the vertex.
+    fn polygon(&self, vertex: DVec3) -> Result<FloatPolygon, PolygonError> {
+        match &self.same {
+            None => inserted(&self.curve.polygon, self.index, vertex),
+            Some(same) => {
+                let mut polygon = same.polygon.clone();
+                polygon.move_vertices(vec![(self.index, vertex)])?;
+                Ok(polygon)
+            }
+        }
     }
 }
 
 impl NewVertexTool {
     /// Take a tool that makes new vertices in one place.
     pub fn new(place: NewVertex) -> Self {
-        let dragged = None;
-        Self { place, dragged }
+        Self {
+            place,
+            dragged: None,
+            last_shape: LastSameShape::default(),
+        }
     }
 
     /// The vertex that a click adds at a place, given on the canvas and in the view plane.
@@ -136,7 +191,7 @@ impl NewVertexTool {
             }
             NewVertex::IntoLeg => {
                 let hit = context.hits.leg(place, LEG_REACH).ok_or(NO_LEG)?;
-                (Adding::into_leg(hit, context)?, hit.point)
+                (Adding::into_leg(hit, &self.last_shape, context)?, hit.point)
             }
         };
         let vertex = adding.vertex_at(at, context);
@@ -160,7 +215,7 @@ impl NewVertexTool {
                 let place = context.place();
                 let hit = place.and_then(|place| context.hits.leg(place, LEG_REACH));
                 let hit = hit.ok_or_else(|| NO_LEG.to_owned());
-                hit.and_then(|hit| Adding::into_leg(hit, context))
+                hit.and_then(|hit| Adding::into_leg(hit, &self.last_shape, context))
             }
         };
         let adding = adding.map_err(EntryError::Refused)?;
@@ -227,7 +282,10 @@ impl Tool for NewVertexTool {
         let mut effects = self.begin(&adding, vertex);
         match gesture {
             Gesture::Click(_) => effects.push(Effect::Commit),
-            _ => self.dragged = Some(adding),
+            _ => {
+                let pressed = adding.same.as_ref().map(|_| context.model(place));
+                self.dragged = Some(Adding { pressed, ..adding });
+            }
         }
         effects
     }
@@ -261,6 +319,18 @@ impl Tool for NewVertexTool {
                 }
             }
             (NewVertex::IntoLeg, Some(_)) => "Release to place the new vertex; Esc cancels",
+            (NewVertex::IntoLeg, None) if !context.settings.vertices_stay => {
+                let place = context.place();
+                let hit = place.and_then(|place| context.hits.leg(place, LEG_REACH));
+                let adding = hit.map(|hit| Adding::into_leg(hit, &self.last_shape, context));
+                match adding.map(|adding| adding.map(|adding| adding.same)) {
+                    Some(Ok(Some(same))) => {
+                        return format!("Click or drag to insert a vertex: {}", same.told());
+                    }
+                    Some(Err(refused)) => return refused,
+                    _ => "Click on a leg to insert a vertex: the curve keeps its shape; Esc ends",
+                }
+            }
             (NewVertex::IntoLeg, None) => {
                 "Click on a leg to split it, or drag or type where the new vertex goes; Esc ends"
             }
@@ -309,46 +379,6 @@ impl Tool for NewVertexTool {
 
     fn proposal(&self, context: &Context) -> Option<FloatPolygon> {
         let (adding, vertex) = self.planned(context)?;
-        inserted(&adding.curve.polygon, adding.index, vertex).ok()
-    }
-}
-
-/// Delete the vertices that are clicked.
-#[derive(Debug, Default)]
-pub struct DeleteTool;
-
-impl Tool for DeleteTool {
-    fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
-        match gesture {
-            Gesture::Click(place) => match context.hits.vertex(place) {
-                Some((curve, index)) => delete(curve, index, context),
-                None => Vec::new(),
-            },
-            Gesture::Key(Key::Escape) => vec![Effect::Finish],
-            _ => Vec::new(),
-        }
-    }
-
-    fn begins(&self, gesture: Gesture, context: &Context) -> bool {
-        matches!(gesture, Gesture::Click(place) if context.hits.vertex(place).is_some())
-    }
-
-    fn hint(&self, _context: &Context) -> String {
-        "Click a vertex to delete it; Esc ends".into()
-    }
-}
-
-fn delete(curve: CurveId, index: usize, context: &Context) -> Vec<Effect> {
-    let Some(found) = context.document.curve(curve) else {
-        return Vec::new();
-    };
-    match deletion(curve, found, &[index]) {
-        Ok(edit) => vec![
-            Effect::Select(Vec::new()),
-            Effect::Activate(curve),
-            Effect::Apply("Delete vertex".into(), vec![edit]),
-            Effect::Say(format!("Vertex {index} of {} deleted", quoted(&found.name))),
-        ],
-        Err(refused) => vec![Effect::Say(refused.to_string())],
+        adding.polygon(vertex).ok()
     }
 }

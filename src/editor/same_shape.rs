@@ -1,0 +1,131 @@
+//! Polygons with more or fewer vertices whose curve stays.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use crate::document::{Curve, CurveId, Edit, EditError, quoted};
+use crate::editor::polygon_edits::{deletion, replacement};
+use crate::geometry::features::{Feature, Features};
+use crate::geometry::{FloatPolygon, PolygonError, rounded_up};
+
+/// The switch that inserting and deleting vertices follow.
+pub const KEEP_SHAPE: &str = "Keep shape";
+
+/// A polygon with more or fewer vertices that keeps its curve's shape.
+#[derive(Clone, Debug)]
+pub struct SameShape {
+    /// The polygon.
+    pub polygon: FloatPolygon,
+    /// How far its curve is off, at most.
+    pub deviation: f64,
+    /// How many curvature extrema and inflections the curve had and has, if that changes.
+    pub features: Option<[[usize; 2]; 2]>,
+}
+
+impl SameShape {
+    /// Find the polygon with so many vertices more, or fewer, that is nearest to a curve in its own parameter.
+    ///
+    /// # Errors
+    /// Says so if a vertex is locked, since all move, or if so few vertices make no curve of this degree.
+    pub fn of(curve: &Curve, more: isize) -> Result<Self, String> {
+        if let Some(vertex) = curve.locked_vertices.iter().next() {
+            return Err(format!(
+                "vertex {vertex} of {} is locked, and all move to keep the shape: unlock it, or switch {} off",
+                quoted(&curve.name),
+                KEEP_SHAPE,
+            ));
+        }
+        let polygon = &curve.polygon;
+        let refused = |error| {
+            let name = curve.name.clone();
+            advised(EditError::Polygon { name, error })
+        };
+        let (degree, count) = (polygon.degree(), polygon.vertices().len());
+        let segments = polygon.segments().checked_add_signed(more);
+        let least = if polygon.is_periodic() { degree + 1 } else { 1 };
+        let Some(segments) = segments.filter(|segments| *segments >= least) else {
+            return Err(refused(PolygonError::TooFewVertices {
+                found: count.saturating_add_signed(more),
+                needed: degree + 1,
+                degree,
+                periodic: polygon.is_periodic(),
+            }));
+        };
+        let found = polygon.refitted(degree, segments).map_err(refused)?;
+        let [before, after] = [polygon, &found.polygon].map(|polygon| {
+            let features = Features::new(polygon);
+            [Feature::CurvatureExtremum, Feature::Inflection].map(|kind| features.count(kind))
+        });
+        Ok(Self {
+            polygon: found.polygon,
+            deviation: found.deviation,
+            features: (before != after).then_some([before, after]),
+        })
+    }
+
+    /// Say how far the curve moves, and which features change.
+    pub fn told(&self) -> String {
+        let moved = match self.deviation {
+            0.0 => "the curve stays".to_owned(),
+            bound => format!("the curve moves by at most {}", rounded_up(bound)),
+        };
+        match self.features {
+            None => moved,
+            Some([[extrema, inflections], [extrema_now, inflections_now]]) => format!(
+                "{moved}; extrema {extrema} → {extrema_now}, inflections {inflections} → {inflections_now}"
+            ),
+        }
+    }
+}
+
+/// The edit that deletes vertices of a curve, by their numbers in rising order, and what it does to the curve: keep its
+/// shape, or leave the other vertices in their places.
+///
+/// # Errors
+/// Says so if a vertex is locked that would be deleted or moved, or if the rest is no curve of this degree.
+pub fn removal(
+    id: CurveId,
+    curve: &Curve,
+    indices: &[usize],
+    vertices_stay: bool,
+) -> Result<(Edit, Option<String>), String> {
+    if vertices_stay {
+        let edit = deletion(id, curve, indices).map_err(advised)?;
+        return Ok((edit, None));
+    }
+    let same = SameShape::of(curve, -(indices.len() as isize))?;
+    let told = same.told();
+    Ok((replacement(id, curve, same.polygon), Some(told)))
+}
+
+/// Say why vertices cannot come or go, and the way out.
+fn advised(refused: EditError) -> String {
+    match refused {
+        EditError::Polygon { .. } => format!("{refused}; lower its degree first"),
+        refused => refused.to_string(),
+    }
+}
+
+/// The polygon of the same shape for the curve that was looked at last.
+#[derive(Debug, Default)]
+pub struct LastSameShape(RefCell<Option<Found>>);
+
+type Found = (Arc<Curve>, Result<Arc<SameShape>, String>);
+
+impl LastSameShape {
+    /// As [`SameShape::of`], found anew only for another curve. One value asks for one number of vertices.
+    ///
+    /// # Errors
+    /// As [`SameShape::of`].
+    pub fn of(&self, curve: &Arc<Curve>, more: isize) -> Result<Arc<SameShape>, String> {
+        let mut last = self.0.borrow_mut();
+        if let Some((of, found)) = last.as_ref()
+            && Arc::ptr_eq(of, curve)
+        {
+            return found.clone();
+        }
+        let found = SameShape::of(curve, more).map(Arc::new);
+        *last = Some((curve.clone(), found.clone()));
+        found
+    }
+}
