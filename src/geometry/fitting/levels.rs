@@ -330,7 +330,10 @@ impl<'a> Task<'a> {
         let better = |found: &mut Option<Level>, it: Level| {
             *found = Some(it.or(found.take()));
         };
-        let is_asked = self.count.is_some() && count <= MANY;
+        let is_asked = self
+            .count
+            .is_some_and(|asked| asked == count || self.known.is_none());
+        let is_asked = is_asked && count <= MANY;
         // A number that is asked for must be as near as those with fewer vertices, so that these are tried as hard.
         let tried = if is_asked { ASKED_STARTS } else { 1 };
         for best in known.iter().rev().take(tried) {
