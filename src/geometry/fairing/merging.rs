@@ -33,6 +33,10 @@ const AHEAD: f64 = 2.0;
 /// The most extrema that a joint may add: where curvature jumps, it must rise and fall there.
 const ADDED: usize = 2;
 
+/// A jump of the curvature is none if, times the square of the size, it is below so many tolerances: the curve then
+/// gets over it along all of its length.
+const ABSORBED: f64 = 16.0;
+
 /// The share of the tolerance that samples must keep, so that the curve between them does too.
 const KEPT: f64 = 0.9;
 
@@ -177,7 +181,9 @@ pub fn merge(
         outliers: Some(Vec::new()),
         ..PlaneFit::default()
     };
-    for extrema in own..=own + ADDED {
+    let expected = own + added_by_joint(parts, tolerance);
+    let others = (own..=own + ADDED).filter(|extrema| *extrema != expected);
+    for extrema in [expected].into_iter().chain(others) {
         asked.extrema = Extrema::Exactly(extrema);
         let found = fit_plane(&points, &asked, &progress.hurried(SHARE));
         if progress.is_cancelled() {
@@ -198,6 +204,22 @@ pub fn merge(
         }
     }
     Err(MergeError::OutOfReach { tolerance })
+}
+
+/// The extrema that the joint adds: each change of sign between the slope of the curvature before it, the jump of the
+/// curvature there, and the slope behind it.
+fn added_by_joint([first, second]: [&FloatPolygon; 2], tolerance: f64) -> usize {
+    let [before, behind] = [first.end_jet(End::Finish), second.end_jet(End::Start)];
+    let jump = behind.signed_curvature() - before.signed_curvature();
+    let size = first.size().max(second.size());
+    let is_absorbed = jump.abs() * size * size <= ABSORBED * tolerance;
+    let slopes = [before, behind].map(|jet| jet.curvature_slope(true));
+    let signs = match is_absorbed {
+        true => vec![slopes[0], slopes[1]],
+        false => vec![slopes[0], jump, slopes[1]],
+    };
+    let pairs = signs.windows(2);
+    pairs.filter(|pair| pair[0] * pair[1] < 0.0).count()
 }
 
 fn extrema_of(parts: [&FloatPolygon; 2], progress: &Progress) -> Result<usize, MergeError> {
