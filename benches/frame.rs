@@ -6,10 +6,12 @@ mod winding;
 
 use std::hint::black_box;
 
-use batten::editor::{Command, Editor, Layer};
+use batten::editor::{Command, Editor, Layer, Look};
+use batten::geometry::{ClampedPolygon, FloatPolygon};
 use batten::ui::App;
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::{Bencher, BenchmarkId, Criterion, criterion_group, criterion_main};
 use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rect, vec2};
+use glam::{DVec2, DVec3};
 use winding::winding;
 
 const SIZE: [f32; 2] = [1440.0, 900.0];
@@ -25,8 +27,25 @@ struct Window {
 }
 
 impl Window {
-    /// Open the window on a curve of so many vertices, with the comb shown.
-    fn open(count: usize) -> Self {
+    /// Open the window on a curve of so many vertices, with the comb shown; a vertex is selected.
+    fn open(count: usize, selected: usize) -> Self {
+        Self::on(Self::editor(count, selected))
+    }
+
+    /// Open the window on the beginning of a curve.
+    fn at_beginning(count: usize) -> Self {
+        let mut editor = Self::editor(count, 0);
+        let curve = editor.active().expect("a curve");
+        for vertex in 1..SHOWN {
+            editor.select_vertex(curve, vertex, true);
+        }
+        editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
+        editor.look(Look::Selection);
+        editor.select_vertex(curve, SHOWN - 1, false);
+        Self::on(editor)
+    }
+
+    fn editor(count: usize, selected: usize) -> Editor {
         let mut editor = Editor::with_document(winding(count));
         let comb = Command::ToggleLayer(Layer::Comb);
         if !editor.sight().layers().shows(Layer::Comb) {
@@ -34,7 +53,11 @@ impl Window {
         }
         // In a crowd only what is selected can be pressed.
         let curve = editor.active().expect("a curve");
-        editor.select_vertex(curve, count / 2, false);
+        editor.select_vertex(curve, selected, false);
+        editor
+    }
+
+    fn on(editor: Editor) -> Self {
         let context = Context::default();
         let app = App::new(&context, None, false, editor);
         let mut window = Self {
@@ -66,15 +89,27 @@ impl Window {
         meshes.len()
     }
 
-    /// Press the vertex in the middle of the curve.
-    fn press(&mut self) -> Pos2 {
+    /// Where a point of the model is in the window.
+    fn at(&self, point: DVec3) -> Pos2 {
+        let at = self
+            .app
+            .editor()
+            .view()
+            .viewport()
+            .to_screen(point.truncate());
+        let canvas = self.app.canvas_rect().expect("the canvas was shown");
+        canvas.min + vec2(at.x as f32, at.y as f32)
+    }
+
+    fn polygon(&self) -> &FloatPolygon {
         let editor = self.app.editor();
         let curve = editor.active().expect("a curve");
-        let polygon = &editor.document().curve(curve).expect("the curve").polygon;
-        let vertex = polygon.vertex(polygon.vertices().len() / 2).truncate();
-        let at = editor.view().viewport().to_screen(vertex);
-        let canvas = self.app.canvas_rect().expect("the canvas was shown");
-        let at = canvas.min + vec2(at.x as f32, at.y as f32);
+        &editor.document().curve(curve).expect("the curve").polygon
+    }
+
+    /// Press a handle of the curve, and drag it a little.
+    fn press(&mut self, handle: Handle) -> Pos2 {
+        let at = self.at(handle.place(self.polygon()));
         self.frame(vec![Event::PointerMoved(at)]);
         self.frame(vec![Event::PointerButton {
             pos: at,
@@ -82,28 +117,77 @@ impl Window {
             pressed: true,
             modifiers: Modifiers::NONE,
         }]);
-        self.frame(vec![Event::PointerMoved(at + vec2(10.0, 10.0))]);
+        let to = at + vec2(10.0, 10.0);
+        self.frame(vec![Event::PointerMoved(to)]);
         assert!(self.app.editor().workspace().preview().is_some());
+        let off = self.at(handle.place(self.polygon())).distance(to);
+        assert!(
+            off < 2.0,
+            "{handle:?} is {off} points away from the pointer"
+        );
         at
     }
+}
+
+/// Vertices that the window shows where different handles are dragged.
+const SHOWN: usize = 14;
+
+/// What is dragged.
+#[derive(Clone, Copy, Debug)]
+enum Handle {
+    Vertex(usize),
+    Closed(usize),
+    Curve(f64),
+}
+
+impl Handle {
+    fn place(self, polygon: &FloatPolygon) -> DVec3 {
+        match self {
+            Self::Vertex(index) => polygon.vertex(index),
+            Self::Closed(index) => ClampedPolygon::from_float(polygon).vertices()[index],
+            Self::Curve(u) => polygon.point(u),
+        }
+    }
+}
+
+/// Measure the frames of a drag that goes on.
+fn frames(bencher: &mut Bencher, window: &mut Window, at: Pos2) {
+    let mut step = 0;
+    bencher.iter(|| {
+        step = (step + 1) % 64;
+        let to = at + vec2(10.0 + step as f32, 10.0);
+        black_box(window.frame(vec![Event::PointerMoved(to)]))
+    });
 }
 
 fn drag(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("a frame of the window while a vertex is dragged");
     for count in [100, 1_000, 10_000] {
-        let mut window = Window::open(count);
-        let at = window.press();
-        let mut step = 0;
+        let mut window = Window::open(count, count / 2);
+        let at = window.press(Handle::Vertex(count / 2));
         group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
-            bencher.iter(|| {
-                step = (step + 1) % 64;
-                let to = at + vec2(10.0 + step as f32, 10.0);
-                black_box(window.frame(vec![Event::PointerMoved(to)]))
-            });
+            frames(bencher, &mut window, at);
         });
     }
     group.finish();
 }
 
-criterion_group!(benches, drag);
+fn handles(criterion: &mut Criterion) {
+    for count in [60, 1_000] {
+        let name = format!("a frame while a handle of {count} vertices is dragged");
+        let mut group = criterion.benchmark_group(name);
+        for (name, handle) in [
+            ("vertex", Handle::Vertex(6)),
+            ("closed vertex", Handle::Closed(5)),
+            ("curve", Handle::Curve(2.5)),
+        ] {
+            let mut window = Window::at_beginning(count);
+            let at = window.press(handle);
+            group.bench_function(name, |bencher| frames(bencher, &mut window, at));
+        }
+        group.finish();
+    }
+}
+
+criterion_group!(benches, drag, handles);
 criterion_main!(benches);

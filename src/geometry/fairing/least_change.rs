@@ -362,27 +362,29 @@ fn clamped_weights(
 ) -> Result<Vec<(usize, f64)>, PolygonError> {
     polygon.check_index(index)?;
     let (degree, count) = (polygon.degree(), polygon.vertices().len());
-    // Only the first and last n − 1 vertices differ, and each depends on n float vertices.
+    // Only the first and last n − 1 vertices differ: they are made of the first and the last segment's n + 1 float
+    // vertices.
     let reach = (2 * degree).min(count);
-    let window = if index < degree {
-        0..reach
+    let (window, entering) = if index < degree {
+        (0..reach, 0..degree + 1)
     } else if index + degree >= count {
-        count - reach..count
+        (count - reach..count, count - degree - 1..count)
     } else {
         return Ok(vec![(index, 1.0)]);
     };
-    let mut weights = Vec::with_capacity(window.len());
-    for vertex in window.clone() {
-        let unit = window
-            .clone()
-            .map(|other| DVec3::new(f64::from(u8::from(other == vertex)), 0.0, 0.0));
+    let mut weights = Vec::with_capacity(entering.len());
+    // One conversion tells the weights of three vertices, one by each coordinate.
+    for three in entering.clone().step_by(3) {
+        let unit = window.clone().map(|other| {
+            let is = |vertex: usize| f64::from(u8::from(other == vertex));
+            DVec3::new(is(three), is(three + 1), is(three + 2))
+        });
         let unit = FloatPolygon::new(degree, unit.collect(), None, false)?;
         let clamped = ClampedPolygon::from_float(&unit);
-        let value = clamped
-            .vertices()
-            .get(index - window.start)
-            .map_or(0.0, |it| it.x);
-        weights.push((vertex, value * polygon.weight(vertex)));
+        let vertex = clamped.vertices().get(index - window.start);
+        let values = vertex.map_or([0.0; 3], DVec3::to_array);
+        let values = (three..entering.end).zip(values);
+        weights.extend(values.map(|(vertex, value)| (vertex, value * polygon.weight(vertex))));
     }
     let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
     weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
