@@ -330,7 +330,15 @@ impl App {
             if self.editor.sight().is_orbited() {
                 overlays::orbited_ui(context, rect, &mut self.actions);
             }
-            if self.shell.offers_tour && overlays::tour_ui(context, rect, &mut self.actions) {
+            if self.editor.view().evolute.is_hidden {
+                overlays::hidden_evolute_ui(context, rect, &mut self.editor);
+            }
+            // What a tool asks for stands in its place.
+            let is_idle = self.editor.hand().tool() == ToolKind::Select;
+            if self.shell.offers_tour
+                && is_idle
+                && overlays::tour_ui(context, rect, &mut self.actions)
+            {
                 self.shell.offers_tour = false;
             }
             overlays::drop_ui(context, rect);

@@ -111,13 +111,17 @@ fn caption_ui(ui: &mut Ui, text: &str, width: f32) {
 
 fn scale_ui(ui: &mut Ui, editor: &mut Editor) {
     let mut comb = editor.view().comb();
-    let shown = figures::significant(comb.scale, 4);
-    let field = NumberField::new("Comb scale", comb.scale, shown).width(76.0);
-    let field = field
-        .range(1e-12..=1e15)
-        .speed(0.02 * comb.scale.max(1e-12));
-    if let Some(scale) = field.help("Scale of the curvature comb").changed(ui) {
-        comb.scale = scale;
+    let whole = editor.sight().whole_comb_scale();
+    let percent = whole.map_or(0.0, |whole| 100.0 * comb.scale / whole);
+    let shown = whole.map_or("–".to_owned(), |_| {
+        figures::significant(percent, 3) + " %"
+    });
+    let field = NumberField::new("Comb scale", percent, shown).width(76.0);
+    let field = field.range(1e-9..=1e9).speed(0.02 * percent.max(1e-9));
+    let help = "Length of the longest tooth, in percent of the curve's size";
+    let changed = ui.add_enabled_ui(whole.is_some(), |ui| field.help(help).changed(ui));
+    if let (Some(percent), Some(whole)) = (changed.inner, whole) {
+        comb.scale = percent / 100.0 * whole;
         editor.view_mut().set_comb(comb);
     }
 }

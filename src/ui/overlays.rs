@@ -6,9 +6,9 @@ use eframe::egui::{
 };
 
 use super::action::Action;
-use super::theme::{RADIUS, STEP, Tokens};
+use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::{gizmo, keyboard, widgets};
-use crate::editor::{Command, NamedView};
+use crate::editor::{Command, Editor, NamedView};
 
 /// The width of the card that offers the tour.
 const TOUR: f32 = 280.0;
@@ -53,6 +53,24 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
     });
     if clicked.inner {
         commands.push(Command::View(NamedView::Xy).into());
+    }
+}
+
+/// Say that the evolute is hidden because it would cover the canvas, and offer to show it.
+pub fn hidden_evolute_ui(context: &Context, canvas: Rect, editor: &mut Editor) {
+    let top = gizmo::name_place(canvas).map_or(canvas.top(), |name| name.bottom());
+    // Below the badge of an orbited view.
+    let at = pos2(canvas.right() - 2.0 * STEP, top + 2.0 * STEP + ROW);
+    let clicked = widgets::overlay(context, "hidden evolute", (Align2::RIGHT_TOP, at), |ui| {
+        let tokens = Tokens::of(ui);
+        let text = RichText::new("Evolute hidden · Show").color(tokens.strong_text);
+        let badge = Button::new(text).wrap_mode(TextWrapMode::Extend);
+        let badge = badge.stroke(Stroke::new(1.0, tokens.outline));
+        let help = "The lines of the evolute would cover the canvas: show them nevertheless";
+        ui.add(badge).on_hover_text(help).clicked()
+    });
+    if clicked.inner {
+        editor.view_mut().evolute.is_wanted = true;
     }
 }
 

@@ -355,3 +355,59 @@ fn a_fitted_view_leaves_tails_out_and_draws_them_fainter() {
         .sum();
     assert!(faint > 0 && faint < full, "{strengths:?}");
 }
+
+#[test]
+fn an_evolute_that_would_cover_the_canvas_is_hidden_until_it_is_wanted() {
+    let mut script = Script::example("bottle");
+    let drawn = |script: &mut Script| {
+        let active = script.scene().curves.iter().find(|curve| curve.active);
+        active.is_some_and(|curve| !curve.evolute.is_empty())
+    };
+    let is_hidden = |script: &Script| script.editor.view().evolute.is_hidden;
+    assert!(drawn(&mut script) && !is_hidden(&script));
+    // A curve that swings everywhere: its evolute runs to infinity and back at each inflection.
+    let noisy: Vec<(f64, f64)> = (0..2000)
+        .map(|index| {
+            let t = f64::from(index);
+            (t, 3.0 * (2.1 * t).sin() + 2.0 * (0.7 * t).cos())
+        })
+        .collect();
+    script.set_polygon(FloatPolygon::planar(3, &noisy).expect("a polygon"));
+    script.command(Command::FitAll);
+    assert!(!drawn(&mut script) && is_hidden(&script));
+    script.editor.view_mut().evolute.is_wanted = true;
+    assert!(drawn(&mut script) && !is_hidden(&script));
+    // Switched off and on it is hidden again.
+    for _ in 0..2 {
+        script.command(Command::ToggleLayer(Layer::Evolute));
+    }
+    assert!(!drawn(&mut script) && is_hidden(&script));
+    script.command(Command::ToggleLayer(Layer::Evolute));
+    script.scene();
+    assert!(!is_hidden(&script));
+}
+
+#[test]
+fn the_whole_comb_is_as_long_as_the_box_of_the_curve() {
+    let mut script = Script::example("bottle");
+    script.command(Command::ToggleLayer(Layer::Comb));
+    script.scene();
+    let whole = script.editor.sight().whole_comb_scale().expect("a scale");
+    let density = script.editor.view().comb().density;
+    let scale = 0.2 * whole;
+    script
+        .editor
+        .view_mut()
+        .set_comb(CombSettings { scale, density });
+    let curves = &script.scene().curves;
+    let curve = curves.iter().find(|curve| curve.active).expect("it");
+    let teeth = curve.teeth.iter().map(|[foot, tip]| foot.distance(*tip));
+    let longest = teeth.fold(0.0, f64::max);
+    let points = curve.curve.iter().filter(|point| point.is_finite());
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for point in points {
+        (low, high) = (low.min(*point), high.max(*point));
+    }
+    let share = longest / (high - low).max_element();
+    assert!((share - 0.2).abs() < 0.01, "{share}");
+}

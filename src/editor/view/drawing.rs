@@ -62,6 +62,7 @@ impl View {
         let mut curves: Vec<_> = document.curves().filter(|(_, it)| it.visible).collect();
         let references = document.references();
         let mut references: Vec<_> = references.filter(|(_, it)| it.visible).collect();
+        self.evolute.is_hidden &= active.is_some();
         // The active curve is drawn last, on top.
         curves.sort_by_key(|(id, _)| Some(*id) == active);
         references.sort_by_key(|(id, _)| Some(*id) == active);
@@ -102,6 +103,7 @@ impl View {
         scene.points.extend(places);
         if scene.active && analysis.is_smooth() {
             append_derived(&mut outlined.curve, sampled, view, (layers, comb), scene);
+            self.evolute.hide(&mut scene.evolute, view);
         }
     }
 
@@ -204,6 +206,7 @@ impl View {
             });
         }
         append_derived(&mut outlined.curve, sampled, view, (layers, comb), scene);
+        self.evolute.hide(&mut scene.evolute, view);
     }
 
     fn draw_ghosts(

@@ -22,6 +22,34 @@ pub struct Evolute<'a> {
     pub reach: f64,
 }
 
+/// The evolute is hidden where its lines cover more than this share of the view, until they cover less than the other.
+const COVERS: [f64; 2] = [1.0 / 3.0, 0.25];
+
+/// Whether an evolute that would cover much of the view is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EvoluteCrowd {
+    /// Whether it is drawn nevertheless.
+    pub is_wanted: bool,
+    /// Whether it is hidden now.
+    pub is_hidden: bool,
+}
+
+impl EvoluteCrowd {
+    /// Hide the lines of an evolute, as wide as a screen point, if they cover too much of the view.
+    pub fn hide(&mut self, lines: &mut Vec<DVec2>, view: &ViewBox) {
+        let pairs = lines
+            .windows(2)
+            .filter(|pair| pair.iter().all(|it| it.is_finite()));
+        let length: f64 = pairs.map(|pair| view.seen_length(pair[0], pair[1])).sum();
+        let sides = view.high - view.low;
+        let most = COVERS[usize::from(self.is_hidden)];
+        self.is_hidden = !self.is_wanted && length * view.pixel > most * sides.x * sides.y;
+        if self.is_hidden {
+            lines.clear();
+        }
+    }
+}
+
 /// A sample with its parameter on a piece.
 type Place<'a> = (f64, &'a Sample);
 

@@ -11,7 +11,7 @@ use crate::editor::view::view::View;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::FloatPolygon;
 
-/// The height of the comb after a reset, as a share of the smaller side of the curve's box.
+/// The length of the comb's longest tooth after a reset, as a share of the longer side of the curve's box.
 const COMB_HEIGHT: f64 = 0.35;
 
 /// The teeth that the comb of a long curve has after a reset, about.
@@ -95,22 +95,30 @@ impl View {
     pub(super) fn reset_comb(&mut self, shown: Shown<'_>) {
         self.analyse(shown.document());
         self.comb = CombSettings::default();
-        let Some((samples, bounds)) = shown.active().and_then(|id| {
-            let outlined = self.outlines.get(id)?;
-            Some((self.analyses.sampled(id)?.samples, outlined.curve.bounds()))
-        }) else {
+        let pieces = shown
+            .active()
+            .and_then(|id| Some(self.analyses.sampled(id)?.samples.pieces()));
+        let Some(pieces) = pieces else {
             return;
         };
-        let extent = (bounds.high - bounds.low).max_element();
-        let largest = samples
-            .curvature()
-            .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
-        self.comb.density = (TEETH / samples.pieces()).clamp(1, self.comb.density);
+        self.comb.density = (TEETH / pieces).clamp(1, self.comb.density);
         // Without curvature there is no scale to choose.
-        self.set_comb(CombSettings {
-            scale: COMB_HEIGHT * extent / largest,
-            ..self.comb
-        });
+        if let Some(scale) = self.whole_comb_scale(shown) {
+            self.set_comb(CombSettings {
+                scale: COMB_HEIGHT * scale,
+                ..self.comb
+            });
+        }
+    }
+
+    /// The scale at which the comb's longest tooth is as long as the active curve's box; `None` without curvature.
+    pub(super) fn whole_comb_scale(&self, shown: Shown<'_>) -> Option<f64> {
+        let id = shown.active()?;
+        let bounds = self.outlines.get(id)?.curve.bounds();
+        let range = self.analyses.sampled(id)?.samples.curvature()?;
+        let largest = range.high.abs().max(range.low.abs());
+        let scale = (bounds.high - bounds.low).max_element() / largest;
+        Some(scale).filter(|scale| *scale > 0.0 && scale.is_finite())
     }
 
     pub(super) fn fit_selection(&mut self, shown: Shown<'_>) {

@@ -44,6 +44,7 @@ pub use comb::CombSettings;
 pub use curvature_display::CurvatureDisplay;
 pub use curve_outlines::{CurveOutlines, PieceTrend};
 pub use end_marks::EndFitMarks;
+pub use evolute::EvoluteCrowd;
 pub use feature_report::{FeatureKind, FeatureMark, FeatureReport, FeatureRow};
 pub use grid::{GroundGrid, grid_steps, ground_grid};
 pub use hit::REACH;

@@ -29,6 +29,25 @@ impl ViewBox {
         (0.5 * self.pixel).log2().floor().clamp(-1000.0, 1000.0) as i32
     }
 
+    /// The length of the part of a line segment that lies in the box (Liang and Barsky, 1984).
+    pub fn seen_length(&self, from: DVec2, to: DVec2) -> f64 {
+        let way = to - from;
+        let (mut begin, mut end) = (0.0_f64, 1.0_f64);
+        for axis in 0..2 {
+            let sides = [self.low[axis] - from[axis], self.high[axis] - from[axis]];
+            if way[axis] == 0.0 {
+                if sides[0] > 0.0 || sides[1] < 0.0 {
+                    return 0.0;
+                }
+                continue;
+            }
+            let [a, b] = sides.map(|side| side / way[axis]);
+            begin = begin.max(a.min(b));
+            end = end.min(a.max(b));
+        }
+        way.length() * (end - begin).max(0.0)
+    }
+
     /// Whether a point lies in the box.
     pub fn holds(&self, point: DVec2) -> bool {
         point.cmpge(self.low).all() && point.cmple(self.high).all()
@@ -270,6 +289,29 @@ fn keep(point: DVec2, out: &mut Vec<DVec2>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_seen_part_of_a_line_ends_at_the_box() {
+        let view = ViewBox {
+            low: DVec2::ZERO,
+            high: DVec2::new(4.0, 2.0),
+            pixel: 1.0,
+        };
+        for (from, to, expected) in [
+            ([1.0, 1.0], [3.0, 1.0], 2.0),
+            ([-10.0, 1.0], [10.0, 1.0], 4.0),
+            ([-10.0, 3.0], [10.0, 3.0], 0.0),
+            ([-1.0, 0.0], [2.0, 3.0], 2.0_f64.sqrt()),
+            ([1.0, 1.0], [1.0, 1.0], 0.0),
+            ([5.0, 5.0], [6.0, 9.0], 0.0),
+        ] {
+            let length = view.seen_length(from.into(), to.into());
+            assert!(
+                (length - expected).abs() < 1e-12,
+                "{from:?} {to:?}: {length}"
+            );
+        }
+    }
 
     fn check_thin(source: &[DVec2], spacing: f64, expected: &[DVec2]) {
         let (mut points, mut bounds) = (Vec::new(), Bounds::EMPTY);

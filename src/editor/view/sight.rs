@@ -81,6 +81,11 @@ impl<'a> Sight<'a> {
         })
     }
 
+    /// The scale at which the comb's longest tooth is as long as the active curve's box; `None` without curvature.
+    pub fn whole_comb_scale(self) -> Option<f64> {
+        self.view.whole_comb_scale(self.shown)
+    }
+
     /// Whether a curve or a reference is planar.
     pub fn is_planar(self, id: CurveId) -> Option<bool> {
         Some(self.view.analyses.sampled(id)?.samples.is_planar())

@@ -14,6 +14,7 @@ use crate::editor::jobs::patience::Patience;
 use crate::editor::jobs::proving::Proving;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::curvature_display::CurvatureDisplay;
+use crate::editor::view::evolute::EvoluteCrowd;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::layers::Layers;
 use crate::editor::view::outlines::{Outlines, Sketch};
@@ -47,6 +48,8 @@ pub struct View {
     /// How curvatures are written.
     pub curvature_display: CurvatureDisplay,
     pub(in crate::editor) comb: CombSettings,
+    /// Whether the evolute of the active curve is drawn where it would cover much of the view.
+    pub evolute: EvoluteCrowd,
     /// How distances of points that are fitted are drawn.
     pub whiskers: Whiskers,
     pub(in crate::editor) hovered: Hovered,
