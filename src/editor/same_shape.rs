@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::document::{Curve, CurveId, Edit, EditError, quoted};
 use crate::editor::polygon_edits::{deletion, replacement};
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::{FloatPolygon, PolygonError, rounded_up};
 
@@ -18,8 +19,8 @@ pub struct SameShape {
     pub polygon: FloatPolygon,
     /// How far its curve is off, at most.
     pub deviation: f64,
-    /// How many curvature extrema and inflections the curve had and has, if that changes.
-    pub features: Option<[[usize; 2]; 2]>,
+    /// How many curvature extrema and inflections the curve had and has.
+    pub features: [[usize; 2]; 2],
 }
 
 impl SameShape {
@@ -59,27 +60,32 @@ impl SameShape {
         Ok(Self {
             polygon: found.polygon,
             deviation: found.deviation,
-            features: (before != after).then_some([before, after]),
+            features: [before, after],
         })
     }
 
     /// Say how far the curve moves, and which features change.
-    pub fn told(&self) -> String {
+    pub fn told(&self, unit: Option<LengthUnit>) -> String {
+        let unit = unit.map_or(String::new(), |unit| format!(" {}", unit.symbol()));
         let moved = match self.deviation {
-            0.0 => "the curve stays".to_owned(),
-            bound => format!("the curve moves by at most {}", rounded_up(bound)),
+            0.0 => "No deviation".to_owned(),
+            bound => format!("Deviation at most {}{unit}", rounded_up(bound)),
         };
-        match self.features {
-            None => moved,
-            Some([[extrema, inflections], [extrema_now, inflections_now]]) => format!(
-                "{moved}; extrema {extrema} → {extrema_now}, inflections {inflections} → {inflections_now}"
-            ),
+        let kinds = ["extrema", "inflections"].into_iter().enumerate();
+        let changed = kinds.filter_map(|(kind, name)| {
+            let [before, now] = self.features.map(|counts| counts[kind]);
+            (before != now).then(|| format!("{name} {before} → {now}"))
+        });
+        let changed: Vec<String> = changed.collect();
+        match changed.is_empty() {
+            true => moved,
+            false => format!("{moved}; {}", changed.join(", ")),
         }
     }
 }
 
-/// The edit that deletes vertices of a curve, by their numbers in rising order, and what it does to the curve: keep its
-/// shape, or leave the other vertices in their places.
+/// The edit that deletes vertices of a curve, by their numbers in rising order, and what it does to the curve, whose
+/// lengths have a unit: keep its shape, or leave the other vertices in their places.
 ///
 /// # Errors
 /// Says so if a vertex is locked that would be deleted or moved, or if the rest is no curve of this degree.
@@ -87,14 +93,14 @@ pub fn removal(
     id: CurveId,
     curve: &Curve,
     indices: &[usize],
-    vertices_stay: bool,
+    (vertices_stay, unit): (bool, Option<LengthUnit>),
 ) -> Result<(Edit, Option<String>), String> {
     if vertices_stay {
         let edit = deletion(id, curve, indices).map_err(advised)?;
         return Ok((edit, None));
     }
     let same = SameShape::of(curve, -(indices.len() as isize))?;
-    let told = same.told();
+    let told = same.told(unit);
     Ok((replacement(id, curve, same.polygon), Some(told)))
 }
 

@@ -26,7 +26,7 @@ impl Editor {
         self.apply(&format!("{verb} {count}"), edits)?;
         self.hand.selection.clear();
         let told = [vec![format!("{count} {done}")], told].concat();
-        Ok(Note::done(told.join("; ")))
+        Ok(Note::done(told.join(". ")))
     }
 }
 
@@ -63,7 +63,7 @@ fn edits(
                 Command::DeleteCurve.label()
             ));
         }
-        let (edit, curve_told) = removal(id, curve, &indices, vertices_stay)?;
+        let (edit, curve_told) = removal(id, curve, &indices, (vertices_stay, document.unit()))?;
         edits.push(edit);
         told.extend(curve_told);
     }

@@ -9,8 +9,8 @@ use crate::editor::commands::references::{addition, new_formula, new_reference};
 use crate::editor::polygon_edits::periodicity;
 use crate::editor::reply::{Note, Reply, with_lines};
 use crate::editor::selection::{Selection, VertexId};
-use crate::editor::view::Look;
 use crate::editor::view::layers::Layer;
+use crate::editor::view::{EvoluteCrowd, Look};
 use crate::editor::workspace::{Interruption, Workspace};
 use crate::editor::{Editor, Refusal};
 use crate::geometry::counted;
@@ -123,6 +123,9 @@ impl Editor {
                     self.hand.settings.end_fit.closed = false;
                 }
                 self.view.layers.set(layer, !shown);
+                if layer == Layer::Evolute {
+                    self.view.evolute = EvoluteCrowd::default();
+                }
             }
             Command::ToggleBands => self.view.bands_only_plotted ^= true,
             Command::ShowCurvature(display) => self.view.curvature_display = display,

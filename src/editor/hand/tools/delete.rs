@@ -1,10 +1,11 @@
 //! The tool that deletes vertices.
 
-use super::tool::{Context, Effect, Tool};
+use super::tool::{Context, Effect, Tool, pointer_label};
 use crate::document::{CurveId, quoted};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::same_shape::{LastSameShape, removal};
+use crate::editor::view::scene::Mark;
 
 /// Delete the vertices that are clicked.
 #[derive(Debug, Default)]
@@ -29,31 +30,43 @@ impl Tool for DeleteTool {
     }
 
     fn hint(&self, context: &Context) -> String {
-        let hit = context.place().and_then(|place| context.hits.vertex(place));
-        let curve = hit.and_then(|(curve, _)| context.document.curve(curve));
-        let curve = curve.filter(|_| !context.settings.vertices_stay);
-        match curve.map(|curve| self.last_shape.of(curve, -1)) {
+        match self.told(context) {
+            Some(told) => format!("Click to delete the vertex. {told}"),
             None => "Click a vertex to delete it; Esc ends".into(),
-            Some(Ok(same)) => format!("Click to delete the vertex: {}", same.told()),
-            Some(Err(refused)) => refused,
         }
+    }
+
+    fn marks(&self, context: &Context) -> Vec<Mark> {
+        let told = pointer_label(self.told(context), context);
+        told.into_iter().collect()
     }
 }
 
 impl DeleteTool {
+    /// What a click would do to the curve that keeps its shape, or why it cannot.
+    fn told(&self, context: &Context) -> Option<String> {
+        let place = context
+            .place()
+            .filter(|_| !context.settings.vertices_stay)?;
+        let (curve, _) = context.hits.vertex(place)?;
+        let same = self.last_shape.of(context.document.curve(curve)?, -1);
+        Some(same.map_or_else(|refused| refused, |same| same.told(context.document.unit())))
+    }
+
     fn delete(&self, curve: CurveId, index: usize, context: &Context) -> Vec<Effect> {
         let Some(found) = context.document.curve(curve) else {
             return Vec::new();
         };
         let name = quoted(&found.name);
-        let edit = removal(curve, found, &[index], context.settings.vertices_stay);
+        let way = (context.settings.vertices_stay, context.document.unit());
+        let edit = removal(curve, found, &[index], way);
         match edit {
             Ok((edit, told)) => vec![
                 Effect::Select(Vec::new()),
                 Effect::Activate(curve),
                 Effect::Apply("Delete vertex".into(), vec![edit]),
                 Effect::Say(match told {
-                    Some(told) => format!("Vertex {index} of {name} deleted; {told}"),
+                    Some(told) => format!("Vertex {index} of {name} deleted. {told}"),
                     None => format!("Vertex {index} of {name} deleted"),
                 }),
             ],

@@ -398,6 +398,13 @@ pub(super) fn followers_label(pointer: DVec2, context: &Context) -> Option<Mark>
     Some(Mark::Label(pointer + below, words))
 }
 
+/// Say beside the pointer, below what is told of the place there, what a click would do.
+pub(super) fn pointer_label(told: Option<String>, context: &Context) -> Option<Mark> {
+    let (told, pointer) = told.zip(context.pointer)?;
+    let below = DVec2::new(0.0, -LABEL_BELOW * context.viewport.pixel());
+    Some(Mark::Label(pointer + below, told))
+}
+
 /// Turn moved vertices into edits, one a curve.
 pub fn move_edits(moved: impl IntoIterator<Item = (VertexId, DVec3)>) -> Vec<Edit> {
     let mut edits: Vec<(CurveId, Vec<(usize, DVec3)>)> = Vec::new();

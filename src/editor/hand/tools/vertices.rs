@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::tool::{Context, Effect, Entry, Tool};
+use super::tool::{Context, Effect, Entry, Tool, pointer_label};
 use crate::document::{Curve, CurveId};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
@@ -236,6 +236,19 @@ impl NewVertexTool {
         }
     }
 
+    /// What a click into a leg would do to the curve that keeps its shape, or why it cannot.
+    fn told(&self, context: &Context) -> Option<String> {
+        let is_asked = self.place == NewVertex::IntoLeg && self.dragged.is_none();
+        let place = context
+            .place()
+            .filter(|_| is_asked && !context.settings.vertices_stay)?;
+        let hit = context.hits.leg(place, LEG_REACH)?;
+        match Adding::into_leg(hit, &self.last_shape, context) {
+            Ok(adding) => Some(adding.same?.told(context.document.unit())),
+            Err(refused) => Some(refused),
+        }
+    }
+
     /// The effects of beginning a gesture that makes a vertex.
     fn begin(&self, adding: &Adding, vertex: DVec3) -> Vec<Effect> {
         let label = match self.place {
@@ -320,15 +333,11 @@ impl Tool for NewVertexTool {
             }
             (NewVertex::IntoLeg, Some(_)) => "Release to place the new vertex; Esc cancels",
             (NewVertex::IntoLeg, None) if !context.settings.vertices_stay => {
-                let place = context.place();
-                let hit = place.and_then(|place| context.hits.leg(place, LEG_REACH));
-                let adding = hit.map(|hit| Adding::into_leg(hit, &self.last_shape, context));
-                match adding.map(|adding| adding.map(|adding| adding.same)) {
-                    Some(Ok(Some(same))) => {
-                        return format!("Click or drag to insert a vertex: {}", same.told());
+                match self.told(context) {
+                    Some(told) => return format!("Click or drag to insert a vertex. {told}"),
+                    None => {
+                        "Click on a leg to insert a vertex: the curve keeps its shape; Esc ends"
                     }
-                    Some(Err(refused)) => return refused,
-                    _ => "Click on a leg to insert a vertex: the curve keeps its shape; Esc ends",
                 }
             }
             (NewVertex::IntoLeg, None) => {
@@ -339,11 +348,13 @@ impl Tool for NewVertexTool {
     }
 
     fn marks(&self, context: &Context) -> Vec<Mark> {
+        let told = pointer_label(self.told(context), context);
         let Some((adding, vertex)) = self.planned(context) else {
-            return Vec::new();
+            return told.into_iter().collect();
         };
         let [from, at] = [adding.base, vertex].map(|point| context.viewport.flatten(point));
-        vec![Mark::Guide([from, at]), Mark::NewVertex(at)]
+        let marks = [Mark::Guide([from, at]), Mark::NewVertex(at)];
+        marks.into_iter().chain(told).collect()
     }
 
     fn entry(&self, viewport: &Viewport) -> Option<Entry> {
