@@ -89,6 +89,7 @@ pub fn discrete_label(scene: &PlotScene, dot: usize) -> String {
         return String::new();
     };
     let curvature = figures::significant(at.y, 6);
+    let radius = figures::radius_of(at.y, 6);
     let place = if at.x < 0.0 {
         "beyond the start".to_owned()
     } else if at.x > scene.extent {
@@ -96,7 +97,7 @@ pub fn discrete_label(scene: &PlotScene, dot: usize) -> String {
     } else {
         format!("at {}", figures::significant(at.x, 5))
     };
-    format!("vertex {vertex}, {place}\ndiscrete κ {curvature}")
+    format!("vertex {vertex}, {place}\ndiscrete κ {curvature}, R {radius}")
 }
 
 /// The vertex whose dot is nearest along the axis.

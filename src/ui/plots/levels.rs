@@ -258,7 +258,14 @@ fn label(
     } else {
         ""
     };
-    let figures = |x: f64, y: f64| (figures::significant(x, 5), figures::significant(y, 6));
+    let figures = |x: f64, y: f64| {
+        let radius = match which {
+            LevelPlot::CURVATURE => format!(", R {}", figures::radius_of(y, 6)),
+            _ => String::new(),
+        };
+        let y = figures::significant(y, 6);
+        (figures::significant(x, 5), y + &radius)
+    };
     if let Some(feature) = near {
         let (x, y) = figures(feature.at.x, feature.at.y);
         return Some(format!("{}\n{kappa}{y}\nat {x}", feature.kind.label()));
