@@ -245,9 +245,7 @@ impl Joining<'_> {
         let gap = match Joint::between(left, right).check(self.tolerance) {
             Ok(()) => {
                 return match self.merged(self.tolerance) {
-                    Err(OperationError::Merge(
-                        MergeError::OutOfReach { .. } | MergeError::Kind,
-                    )) => self.chained(),
+                    Err(OperationError::Merge(MergeError::OutOfReach { .. })) => self.chained(),
                     Err(OperationError::LockedInMerge { .. }) => self.chained(),
                     found => found,
                 };
@@ -345,6 +343,11 @@ impl Joining<'_> {
             Figure::count("extrema_before", "Curvature extrema of both", extrema[0]),
             Figure::count("extrema", "Curvature extrema", extrema[1]),
         ]);
+        if left.is_rational() || right.is_rational() {
+            outcome
+                .remarks
+                .push("The merged curve has no weights".to_owned());
+        }
         let at = tracks[0].at(left.segments() as f64);
         outcome
             .annotations

@@ -1,15 +1,18 @@
 //! Two curves that meet, made one float polygon within a tolerance.
 //!
-//! The engine that fits points with a wished number of curvature extrema fits both curves at once: the result has
+//! The engines that fit points with a wished number of curvature extrema fit both curves at once: the result has
 //! those of both, and at most two more at the joint.
 
 use std::f64::consts::PI;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use thiserror::Error;
 
+use super::joint_correction::{Disturbance, correct_jointly};
+use crate::geometry::approximation::{FitRequest, fit_points};
 use crate::geometry::distance::{DistanceError, MeasuredDeviation};
 use crate::geometry::end::End;
+use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::fitting::{Extrema, FitError, PlaneFit, fit_plane};
@@ -39,6 +42,12 @@ const ABSORBED: f64 = 16.0;
 
 /// The share of the tolerance that samples must keep, so that the curve between them does too.
 const KEPT: f64 = 0.9;
+
+/// The same in space, where both ends are corrected afterwards.
+const KEPT_IN_SPACE: f64 = 0.5;
+
+/// The most vertices, by those of both curves.
+const MOST: usize = 2;
 
 /// The share of the time that is left for each number of extrema.
 const SHARE: f64 = 0.5;
@@ -90,9 +99,6 @@ pub enum MergeError {
         /// The angle between the tangents, in radians.
         angle: f64,
     },
-    /// A curve lies in space or has weights.
-    #[error("only planar curves without weights are merged: choose Chain or Bridge")]
-    Kind,
     /// No curve was found within the tolerance.
     #[error(
         "no curve with up to {ADDED} curvature extrema more keeps the tolerance: allow more than {}, or choose Chain",
@@ -149,7 +155,7 @@ impl Joint {
     }
 }
 
-/// Make one curve of an open planar one and another that goes on from its end, within a tolerance: both outer ends
+/// Make one curve without weights of an open one and another that goes on from its end, within a tolerance: both outer ends
 /// keep point and direction, and the curve has as many curvature extrema as both, and at most two more, proved.
 ///
 /// # Errors
@@ -164,40 +170,26 @@ pub fn merge(
     for part in parts {
         part.check_open("merged")?;
     }
-    if parts.iter().any(|it| !it.is_planar() || it.is_rational()) {
-        return Err(MergeError::Kind);
-    }
     Joint::between(first, second).check(tolerance)?;
     let own = extrema_of(parts, progress)?;
-    let points = points_of(parts);
-    let jets = [first.end_jet(End::Start), second.end_jet(End::Finish)];
-    let vertices: usize = parts.iter().map(|it| it.vertices().len()).sum();
-    let mut asked = PlaneFit {
-        degree: first.degree().max(second.degree()),
-        most: Some(2 * vertices),
-        tolerance: Some(KEPT * tolerance),
-        exact_ends: [true; 2],
-        directions: jets.map(|jet| jet.tangent().map(|tangent| tangent.truncate())),
-        outliers: Some(Vec::new()),
-        ..PlaneFit::default()
+    let search = Search {
+        points: points_of(parts),
+        parts,
+        planar: parts.iter().all(|it| it.is_planar()),
+        tolerance,
+        progress,
     };
-    let expected = own + added_by_joint(parts, tolerance);
+    let expected = own + added_by_joint(parts, search.planar, tolerance);
     let others = (own..=own + ADDED).filter(|extrema| *extrema != expected);
     for extrema in [expected].into_iter().chain(others) {
-        asked.extrema = Extrema::Exactly(extrema);
-        let found = fit_plane(&points, &asked, &progress.hurried(SHARE));
+        let found = search.with_extrema(extrema)?;
         if progress.is_cancelled() {
             return Err(MergeError::Cancelled);
         }
-        let found = match found {
-            Ok(found) => found,
-            Err(FitError::Cancelled) => return Err(MergeError::Cancelled),
-            Err(_) => continue,
-        };
-        if !found.holds {
+        let Some(polygon) = found else {
             continue;
-        }
-        let merged = measured(parts, found.polygon, [own, extrema], progress);
+        };
+        let merged = measured(parts, polygon, [own, extrema], progress);
         let merged = merged.map_err(|_| MergeError::Cancelled)?;
         if merged.deviation <= tolerance {
             return Ok(merged);
@@ -206,14 +198,109 @@ pub fn merge(
     Err(MergeError::OutOfReach { tolerance })
 }
 
+/// A search for one curve along two others.
+struct Search<'a> {
+    parts: [&'a FloatPolygon; 2],
+    points: Vec<DVec3>,
+    planar: bool,
+    tolerance: f64,
+    progress: &'a Progress,
+}
+
+impl Search<'_> {
+    /// The curve with so many extrema, proved, near to the points, whose ends keep point and direction.
+    fn with_extrema(&self, extrema: usize) -> Result<Option<FloatPolygon>, MergeError> {
+        let hurried = self.progress.hurried(SHARE);
+        let found = match self.planar {
+            true => self.in_plane(extrema, &hurried),
+            false => self.in_space(extrema, &hurried),
+        };
+        match found {
+            Err(FitError::Cancelled) => Err(MergeError::Cancelled),
+            found => Ok(found.unwrap_or(None)),
+        }
+    }
+
+    fn degree(&self) -> usize {
+        let [first, second] = self.parts.map(|part| part.degree());
+        first.max(second)
+    }
+
+    fn most(&self) -> usize {
+        MOST * self
+            .parts
+            .map(|it| it.vertices().len())
+            .iter()
+            .sum::<usize>()
+    }
+
+    /// The conditions at the outer ends.
+    fn ends(&self) -> [(End, EndTarget); 2] {
+        let [first, second] = self.parts;
+        let outer = [(first, End::Start), (second, End::Finish)];
+        outer.map(|(part, end)| (end, EndTarget::keeping(&part.end_jet(end))))
+    }
+
+    fn in_plane(
+        &self,
+        extrema: usize,
+        progress: &Progress,
+    ) -> Result<Option<FloatPolygon>, FitError> {
+        let points: Vec<DVec2> = self.points.iter().map(|point| point.truncate()).collect();
+        let asked = PlaneFit {
+            degree: self.degree(),
+            most: Some(self.most()),
+            extrema: Extrema::Exactly(extrema),
+            tolerance: Some(KEPT * self.tolerance),
+            exact_ends: [true; 2],
+            directions: self.ends().map(|(_, end)| Some(end.direction?.truncate())),
+            outliers: Some(Vec::new()),
+            ..PlaneFit::default()
+        };
+        let found = fit_plane(&points, &asked, progress)?;
+        Ok(found.holds.then_some(found.polygon))
+    }
+
+    fn in_space(
+        &self,
+        extrema: usize,
+        progress: &Progress,
+    ) -> Result<Option<FloatPolygon>, FitError> {
+        let asked = FitRequest {
+            degree: self.degree(),
+            most: Some(self.most()),
+            extrema: Some(extrema),
+            tolerance: Some(KEPT_IN_SPACE * self.tolerance),
+            outliers: Some(Vec::new()),
+            ..FitRequest::default()
+        };
+        let found = fit_points(&self.points, &asked, progress)?;
+        let polygon = &found.polygon;
+        let corrected = correct_jointly(
+            polygon,
+            &self.ends(),
+            Disturbance::Curve,
+            &[],
+            self.progress,
+        );
+        let Ok(corrected) = corrected else {
+            return Ok(None);
+        };
+        let features = Features::proved(&corrected.polygon, |_| !self.progress.is_cancelled());
+        let features = features.ok_or(FitError::Cancelled)?;
+        let holds = features.count(Feature::CurvatureExtremum) == extrema;
+        Ok(holds.then_some(corrected.polygon))
+    }
+}
+
 /// The extrema that the joint adds: each change of sign between the slope of the curvature before it, the jump of the
 /// curvature there, and the slope behind it.
-fn added_by_joint([first, second]: [&FloatPolygon; 2], tolerance: f64) -> usize {
+fn added_by_joint([first, second]: [&FloatPolygon; 2], planar: bool, tolerance: f64) -> usize {
     let [before, behind] = [first.end_jet(End::Finish), second.end_jet(End::Start)];
-    let jump = behind.signed_curvature() - before.signed_curvature();
+    let jump = behind.curvature_of(planar) - before.curvature_of(planar);
     let size = first.size().max(second.size());
     let is_absorbed = jump.abs() * size * size <= ABSORBED * tolerance;
-    let slopes = [before, behind].map(|jet| jet.curvature_slope(true));
+    let slopes = [before, behind].map(|jet| jet.curvature_slope(planar));
     let signs = match is_absorbed {
         true => vec![slopes[0], slopes[1]],
         false => vec![slopes[0], jump, slopes[1]],
@@ -233,10 +320,10 @@ fn extrema_of(parts: [&FloatPolygon; 2], progress: &Progress) -> Result<usize, M
 }
 
 /// Points along both curves; the ends that meet count once, in the middle between them.
-fn points_of([first, second]: [&FloatPolygon; 2]) -> Vec<DVec2> {
-    let along = |polygon: &FloatPolygon| -> Vec<DVec2> {
+fn points_of([first, second]: [&FloatPolygon; 2]) -> Vec<DVec3> {
+    let along = |polygon: &FloatPolygon| -> Vec<DVec3> {
         let places = (0..=SAMPLES * polygon.segments()).map(|it| it as f64 / SAMPLES as f64);
-        places.map(|u| polygon.point(u).truncate()).collect()
+        places.map(|u| polygon.point(u)).collect()
     };
     let [mut points, others] = [first, second].map(along);
     if let (Some(end), Some(start)) = (points.last_mut(), others.first()) {
