@@ -44,39 +44,42 @@ impl FloatPolygon {
             let halved = (0..halvings).try_fold(self.clone(), |polygon, _| polygon.subdivided())?;
             return Ok(Approximation::exact(halved));
         }
-        let step = own as f64 / segments as f64;
-        let nearest = match self.is_periodic() {
-            true => None,
-            false => self.least_squares(degree, segments, step),
+        let knots = NewKnots {
+            degree,
+            start: 0.0,
+            step: own as f64 / segments as f64,
+            segments,
+            periodic: self.is_periodic(),
         };
-        let polygon = match nearest {
-            Some(vertices) => {
-                let points = vertices.iter().map(|it| it.truncate() / it.w);
-                let weights = vertices.iter().map(|it| it.w).collect();
-                let weights = self.is_rational().then_some(weights);
-                converted_float(degree, (points.collect(), weights), false)?
-            }
-            None => quasi_interpolated(
-                self,
-                &NewKnots {
-                    degree,
-                    start: 0.0,
-                    step,
-                    segments,
-                    periodic: self.is_periodic(),
-                },
-            )?,
-        };
+        let polygon = self.nearest_on(&knots)?;
         Ok(Approximation {
-            deviation: from_part(self, 0.0, step, &polygon),
+            deviation: from_part(self, knots.start, knots.step, &polygon),
             polygon,
             exact: false,
         })
     }
 
+    /// The curve on new knots that is nearest to this one in its own parameter.
+    pub(super) fn nearest_on(&self, knots: &NewKnots) -> Result<FloatPolygon, PolygonError> {
+        let nearest = match knots.periodic {
+            true => None,
+            false => self.least_squares(knots),
+        };
+        let Some(vertices) = nearest else {
+            return quasi_interpolated(self, knots);
+        };
+        let points = vertices.iter().map(|it| it.truncate() / it.w);
+        let weights = vertices.iter().map(|it| it.w).collect();
+        let weights = self.is_rational().then_some(weights);
+        converted_float(knots.degree, (points.collect(), weights), false)
+    }
+
     /// The homogeneous vertices of the open curve with the least sum of squares at even samples, whose ends are just
     /// where this curve's are; `None` if rounding leaves them undetermined.
-    fn least_squares(&self, degree: usize, segments: usize, step: f64) -> Option<Vec<DVec4>> {
+    fn least_squares(&self, knots: &NewKnots) -> Option<Vec<DVec4>> {
+        let &NewKnots {
+            degree, segments, ..
+        } = knots;
         let count = segments + degree;
         let samples = degree + MORE_SAMPLES;
         let places = (0..segments).flat_map(|segment| {
@@ -87,7 +90,7 @@ impl FloatPolygon {
             .flat_map(|(segment, t)| orders_met(degree).iter().map(move |it| (segment, t, *it)))
             .map(|(segment, t, order)| {
                 let basis = uniform_basis_derivative(degree, order, t);
-                (segment, basis, self.paced(step, segment, t, order))
+                (segment, basis, self.paced(knots, segment, t, order))
             })
             .collect();
         // The outer vertices hardly act: each unknown is measured by what it does.
@@ -116,7 +119,7 @@ impl FloatPolygon {
                     .iter_mut()
                     .zip(basis)
                     .for_each(|(a, b)| *a = b);
-                (row, self.paced(step, segment, t, order))
+                (row, self.paced(knots, segment, t, order))
             })
             .collect();
         let mut vertices = vec![DVec4::W; count];
@@ -140,13 +143,13 @@ impl FloatPolygon {
         Some(vertices)
     }
 
-    /// A derivative of the homogeneous curve by the parameter of a curve whose segments have the length `step` in u.
-    fn paced(&self, step: f64, segment: usize, t: f64, order: usize) -> DVec4 {
-        let (segment, t) = self.locate(step * (segment as f64 + t));
+    /// A derivative of the homogeneous curve by the parameter of a curve on new knots.
+    fn paced(&self, knots: &NewKnots, segment: usize, t: f64, order: usize) -> DVec4 {
+        let (segment, t) = self.locate(knots.start + knots.step * (segment as f64 + t));
         let basis: Vec<f64> = uniform_basis_derivative(self.degree(), order, t);
         let terms = basis.iter().enumerate();
         let terms = terms.map(|(index, value)| *value * self.homogeneous(segment + index));
-        step.powi(order as i32) * terms.sum::<DVec4>()
+        knots.step.powi(order as i32) * terms.sum::<DVec4>()
     }
 }
 

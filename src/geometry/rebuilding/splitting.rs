@@ -19,9 +19,8 @@ impl FloatPolygon {
     /// If up to `subdivisions` halvings of the segments (never more than [`MAX_SUBDIVISIONS`])
     /// bring knots to both places, they are made and the part is exact. Otherwise it is a uniform
     /// curve over (`to` − `from`) · 2^`subdivisions` segments, rounded up, near the curve: exact
-    /// but for rounding where no knot lies between, else with an error that falls with the
-    /// (n + 1)-th power of the length of its segments; its ends and end tangents are kept as in
-    /// [`FloatPolygon::with_degree`].
+    /// but for rounding where no knot lies between, else nearest to it as in [`FloatPolygon::refitted`], with an
+    /// error that falls with the (n + 1)-th power of the length of its segments; its ends and end tangents are kept.
     ///
     /// # Errors
     /// [`PolygonError::NoSuchPart`] if the part is empty or leaves the curve, also for what is not a
@@ -90,7 +89,12 @@ impl FloatPolygon {
             segments: segments as usize,
             periodic: false,
         };
-        let polygon = quasi_interpolated(self, &knots)?;
+        // One polynomial stays what it is.
+        let is_one = from.floor() + 1.0 >= to;
+        let polygon = match is_one {
+            true => quasi_interpolated(self, &knots)?,
+            false => self.nearest_on(&knots)?,
+        };
         let polygon = with_ends(polygon, [from, to].map(|u| self.jet(u)));
         Ok(Approximation {
             deviation: from_part(self, from, step, &polygon),
