@@ -236,6 +236,19 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     if fitted.iter().any(|found| found.stopped) {
         outcome.remarks.push(best_so_far(&progress, values));
     }
+    let is_held = |own: &PlaneFit| own.exact_ends != asked.exact_ends;
+    if let ([own], [piece]) = (&requests[..], &pieces[..]) {
+        let remark = match piece.is_outer {
+            [true, true] if is_held(own) => {
+                Some("The ends are exact: with free ends the curve crosses itself")
+            }
+            [false, false] => {
+                Some("No corner splits the points: with “Periodic” they close smoothly")
+            }
+            _ => None,
+        };
+        outcome.remarks.extend(remark.map(str::to_owned));
+    }
     Ok(Outcome {
         requirements: ids.zip(requirements).collect(),
         ..outcome

@@ -12,6 +12,9 @@ use crate::geometry::fitting::{
 };
 use crate::geometry::{End, Progress};
 
+/// A curve with exact ends may be so many times as far off as one that crosses itself.
+const FARTHER: f64 = 1.5;
+
 /// The pieces of points, one for each curve: all, or those between corners, where closed points begin at a corner. The
 /// corners come with them.
 pub(super) fn pieces(
@@ -26,7 +29,12 @@ pub(super) fn pieces(
     let ring = count - usize::from(goes_round && is_closed);
     let corners = corners(&points[..ring], goes_round);
     if !are_split || corners.is_empty() {
-        return (vec![Piece::whole(count)], corners);
+        let closes = goes_round && !periodic;
+        let whole = match closes {
+            true => Piece::round(ring),
+            false => Piece::whole(count),
+        };
+        return (vec![whole], corners);
     }
     let last = count.saturating_sub(1);
     let bounds = match goes_round {
@@ -69,7 +77,16 @@ impl Piece {
         }
     }
 
-    /// Fit one curve, whose inner ends are just at the corners. Points keep their numbers.
+    /// All of so many points and the first again: the curve closes, with a corner there.
+    fn round(points: usize) -> Self {
+        Self {
+            numbers: (0..=points).map(|number| number % points).collect(),
+            is_outer: [false; 2],
+        }
+    }
+
+    /// Fit one curve, whose inner ends are just at the corners. Points keep their numbers. Where free ends make a curve
+    /// that crosses itself and exact ones do not, its ends are exact.
     pub(super) fn fit(
         &self,
         points: &[DVec2],
@@ -100,6 +117,22 @@ impl Piece {
             ..asked.clone()
         };
         let mut found = fit_plane(&own, &asked, progress)?;
+        let mut asked = asked;
+        if found.crossing.is_some() && asked.exact_ends != [true; 2] && !asked.periodic {
+            let exact = PlaneFit {
+                exact_ends: [true; 2],
+                ..asked.clone()
+            };
+            let uncrossed = fit_plane(&own, &exact, progress);
+            let uncrossed = uncrossed
+                .ok()
+                .filter(|it| it.holds && it.crossing.is_none());
+            // It must be about as near.
+            let is_near = |it: &Fitted| it.deviation <= it.tolerance.max(FARTHER * found.deviation);
+            if let Some(uncrossed) = uncrossed.filter(is_near) {
+                (asked, found) = (exact, uncrossed);
+            }
+        }
         for (outlier, _) in &mut found.outliers {
             *outlier = self.numbers[*outlier];
         }
