@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::amount::Amount;
 use super::editable::{check_measurable, open};
-use super::end_change::{moved_far, remarks_on_change};
+use super::end_change::{is_another, moved_far, remarks_on_change};
 use super::error::OperationError;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, locked};
@@ -255,8 +255,9 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             let turned = turned_over(&curve.polygon, &polygon);
             let mut remarks = remarks_on_change(curve, &polygon, turned.as_deref())?;
             remarks.extend(correction.remark);
+            let is_wrong = turned.is_some() || is_another(curve, &polygon)?;
             let outcome = corrected(id, curve, polygon)?;
-            let failed = turned.map(|_| Requirement::Failed { left: None });
+            let failed = is_wrong.then_some(Requirement::Failed { left: None });
             let requirements = requirements.iter().cloned().chain(failed).collect();
             Outcome {
                 remarks,

@@ -13,6 +13,10 @@ const MUCH: f64 = 10.0;
 /// whole, too: curvatures and directions say little about how far a curve may move.
 const FAR: f64 = 0.02;
 
+/// A curve that moves by more than this share of its size, and more than [`MUCH`] times as far as its ends, is another
+/// curve.
+const ANOTHER: f64 = 0.1;
+
 /// Say where a correction moves the curve far, turns it over, as `turned` says, or leads it out of its plane.
 ///
 /// # Errors
@@ -40,6 +44,16 @@ pub(super) fn remarks_on_change(
         );
     }
     Ok(remarks)
+}
+
+/// Whether a correction makes another curve of it.
+///
+/// # Errors
+/// [`OperationError::Polygon`] if it cannot be measured.
+pub(super) fn is_another(curve: &Curve, after: &FloatPolygon) -> Result<bool, OperationError> {
+    let size = BezierPolygon::from_float(&curve.polygon).size();
+    let far = moved_far(curve, after)?;
+    Ok(far.is_some_and(|[moved, shift]| moved > (ANOTHER * size).max(MUCH * shift)))
 }
 
 /// How far a correction moves the curve, and how far its ends, if the curve changes as a whole.

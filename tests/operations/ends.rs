@@ -206,13 +206,21 @@ fn the_curve_moves_least_where_its_vertices_would_take_it_far() {
     let run = |order: usize| {
         let runner = Runner::of(polygon.clone());
         let given = [&straight[..], &[("order", Value::Choice(order))]].concat();
-        let (outcome, curves) = runner.done("correct-ends", &given);
-        let found = &curves[0].polygon;
+        let outcome = runner.run("correct-ends", &given).expect("it can run");
+        let after = outcome.applied_to(runner.input.document()).expect("edits");
+        let found = &after.curve(runner.id()).expect("a curve").polygon;
         for end in End::BOTH {
             let [before, after] = [&polygon, found].map(|it| it.end_jet(end));
             assert!(before.point.distance(after.point) <= 1e-9);
             assert!(after.signed_curvature().abs() <= 1e-9);
         }
+        // What becomes another curve is not reached.
+        assert_eq!(
+            outcome.reached,
+            order != 1,
+            "{order}: {:?}",
+            outcome.remarks
+        );
         let samples = (0..=100).map(|step| f64::from(step) / 20.0);
         let moved = samples.map(|u| polygon.point(u).distance(found.point(u)));
         (moved.fold(0.0, f64::max), outcome.remarks.join("\n"))
