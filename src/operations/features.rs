@@ -70,6 +70,16 @@ impl FeatureComparison {
             after: proof.counts(&after)?,
         })
     }
+
+    /// Say that there are more curvature extrema than in the curves before.
+    pub(super) fn remark_on_more(&self) -> Option<String> {
+        let sum = |curves: &[FeatureCounts]| -> usize {
+            curves.iter().map(|it| it.curvature_extrema).sum()
+        };
+        let [before, now] = [&self.before, &self.after].map(|curves| sum(curves));
+        let has_more = !self.before.is_empty() && now > before;
+        has_more.then(|| format!("Curvature extrema: {before} before, {now} now"))
+    }
 }
 
 impl FeatureCounts {

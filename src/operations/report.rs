@@ -126,10 +126,10 @@ impl Report {
         progress: &Progress,
     ) -> Option<Self> {
         let features = FeatureComparison::prove(input, outcome, progress)?;
-        Some(Self {
-            features: Some(features),
-            ..Self::new(operation, input, outcome)
-        })
+        let mut report = Self::new(operation, input, outcome);
+        report.remarks.extend(features.remark_on_more());
+        report.features = Some(features);
+        Some(report)
     }
 }
 

@@ -545,7 +545,7 @@ fn bad_values_and_bad_usage_are_told_apart() {
     );
     folder.refused(
         &["apply", "reverse", &file, "out.docx"],
-        "out.docx: “.docx” is not a format Batten knows: use one of .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf",
+        "out.docx: “.docx” is not a format Batten knows: use one of .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf, .step, .stp, .p21, .ap242, .igs, .iges, .3dm, .svg, .glif, .obj, .brep, .brp, .json",
     );
     folder.refused(
         &["apply", "translate-end", &file, "out.batten"],
@@ -650,7 +650,10 @@ fn matched_curves_follow_and_locked_vertices_stay() {
     let report = report(&folder, &rounded);
     assert_eq!(
         report["remarks"],
-        json!(["1 locked vertex keeps the coordinates"])
+        json!([
+            "1 locked vertex keeps the coordinates",
+            "Curvature extrema: 2 before, 4 now"
+        ])
     );
     let text = fs::read_to_string(folder.path("out.batten")).unwrap();
     let project: Value = serde_json::from_str(&text).unwrap();
