@@ -7,7 +7,7 @@ use crate::document::{
     Curve, CurveId, Document, Edit, EditError, EndMatch, MatchPlace, ParameterSpan, Renumbering,
     quoted,
 };
-use crate::geometry::fairing::merging::Track;
+use crate::geometry::approximation::merging::Track;
 use crate::geometry::{End, FloatPolygon};
 
 /// A curve with its identity.

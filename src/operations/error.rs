@@ -4,13 +4,13 @@ use thiserror::Error;
 
 use super::inputs::Inputs;
 use crate::document::{EditError, quoted};
+use crate::geometry::approximation::merging::MergeError;
 use crate::geometry::approximation::{ApproximationError, FitError};
 use crate::geometry::between::BetweenError;
 use crate::geometry::expressions::ExpressionMistake;
 use crate::geometry::fairing::bridging::BridgeError;
 use crate::geometry::fairing::harmonising::HarmonyError;
 use crate::geometry::fairing::joint_correction::CorrectionError;
-use crate::geometry::fairing::merging::MergeError;
 use crate::geometry::parameters::OutOfRange;
 use crate::geometry::references::{ReferenceError, ReferenceTextError};
 use crate::geometry::{End, MAX_DEGREE, PolygonError};

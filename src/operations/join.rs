@@ -22,7 +22,7 @@ use super::values::Values;
 use crate::document::{Edit, EndMatch, MatchPlace};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::bridging::{Bridge, join};
-use crate::geometry::fairing::merging::{Joint, MergeError, Merged, Track, merge};
+use crate::geometry::approximation::merging::{Joint, MergeError, Merged, Track, merge};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{BezierPolygon, Continuity, End, FloatPolygon, Progress, significant};
 

@@ -8,12 +8,12 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
-use super::joint_correction::{Disturbance, correct_jointly};
-use crate::geometry::approximation::{FitRequest, fit_points};
+use super::fitting::{FitRequest, fit_points};
 use crate::geometry::distance::{DistanceError, MeasuredDeviation};
 use crate::geometry::end::End;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::error::PolygonError;
+use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::fitting::{Extrema, FitError, PlaneFit, fit_plane};
 use crate::geometry::float_polygon::FloatPolygon;

@@ -5,6 +5,7 @@ mod equivalence;
 mod error;
 mod fitting;
 mod knots;
+pub mod merging;
 mod placing;
 mod spacing;
 mod watched;

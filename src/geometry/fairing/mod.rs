@@ -18,7 +18,6 @@ mod jet_weights;
 pub mod joint_correction;
 pub mod least_change;
 mod least_squares;
-pub mod merging;
 pub mod near_end;
 pub(super) mod near_points;
 mod objective;
