@@ -125,12 +125,6 @@ fn steps_ui(ui: &mut Ui, report: &EndFitReport, is_closed: bool) -> Option<EndFi
         }
     };
     step_ui(ui, 1, "Shape float S-polygon", false, |_| ());
-    indented(ui, |ui| {
-        let legs = figures::range(report.legs, |leg| figures::significant(leg, 6));
-        widgets::figure_row(ui, "Polygon legs", &legs);
-        let turns = figures::range(report.turns, |turn| figures::degrees(turn, 3));
-        widgets::figure_row(ui, "Turning angles", &turns);
-    });
     let closed = step_ui(ui, 2, "Closed S-polygon", false, |ui| {
         closed_ui(ui, is_closed)
     });
@@ -228,13 +222,13 @@ fn difference_ui(ui: &mut Ui, report: &EndFitReport) {
     let d = report.difference;
     let noise = report.noise;
     let plain = |value: f64| figures::significant(value, 6);
-    let coordinate = |value| above_noise(value, noise.length, plain);
-    let mut pairs = vec![("Δx", coordinate(d.x)), ("Δy", coordinate(d.y))];
-    if !report.planar {
-        pairs.push(("Δz", coordinate(d.z)));
-    }
     let length = |value| document_unit::length(ui.ctx(), plain(value));
-    pairs.push(("Length", above_noise(d.length(), noise.length, length)));
+    let length = |value| above_noise(value, noise.length, length);
+    let mut pairs = vec![("Δx", length(d.x)), ("Δy", length(d.y))];
+    if !report.planar {
+        pairs.push(("Δz", length(d.z)));
+    }
+    pairs.push(("Length", length(d.length())));
     pairs.push(("Angle", above_noise(report.angle, noise.angle, angle)));
     if let Some(missing) = report.missing {
         let asked = [
@@ -313,12 +307,14 @@ fn repeat_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     let tooltip = "The error of the end that is farther from its target";
     widgets::quiet_row(ui, "Remaining error, distance", &distance).on_hover_text(tooltip);
     widgets::quiet_row(ui, "Remaining error, angle", &turn).on_hover_text(tooltip);
-    widgets::figure_row(ui, "Passes", &report.passes.to_string());
     let tolerance = widgets::form_row(ui, "Tolerance", |ui| {
         let text = figures::significant(report.tolerance, 4);
         let field = NumberField::new("tolerance", report.tolerance, text);
         let field = field.range(0.0..=f64::MAX).quantity(Quantity::Length);
-        field.width(FIELD).typed(ui)
+        let typed = field.width(FIELD).typed(ui);
+        let passes = counted(report.passes, "pass", "passes");
+        ui.label(RichText::new(passes).color(Tokens::of(ui).faint_text));
+        typed
     });
     // Once the ends are met, or the loop has said the same, there is nothing to warn of.
     let has_failed = report.outcome.as_ref().is_some_and(Result::is_err);

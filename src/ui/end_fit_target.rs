@@ -1,13 +1,15 @@
 //! The end-fit panel's target: what the end must have, picked from another curve or typed.
 
-use eframe::egui::{Button, Checkbox, Label, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use eframe::egui::{
+    Button, Checkbox, Label, Response, RichText, Role, Sense, Ui, WidgetInfo, vec2,
+};
 use glam::DVec3;
 use lucide_icons::Icon;
 
 use super::number_field::{FieldEvent, NumberField, vector_row};
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::{self, IconButton, above_noise};
-use super::{figures, icons};
+use super::{document_unit, figures, icons};
 use crate::document::{MatchPlace, quoted};
 use crate::editor::{EndFitAction, EndFitReport, EndNoise, MatchReport};
 use crate::geometry::Continuity;
@@ -16,7 +18,10 @@ use crate::geometry::expressions::sin_cos_of_degrees;
 use crate::geometry::parameters::Quantity;
 
 /// The width of a field.
-const FIELD: f32 = 96.0;
+const FIELD: f32 = 88.0;
+
+/// The width of the captions of conditions.
+const CONDITION: f32 = 104.0;
 
 /// The width of the buttons beside a match.
 const BUTTONS: f32 = 2.0 * ROW + 4.0 * STEP;
@@ -61,12 +66,16 @@ impl Condition {
     ) -> Option<Event> {
         let shown = |value: f64| match quantity {
             Quantity::Angle => format!("{value:.3}°"),
-            _ => figures::significant(value, 6),
+            _ => figures::significant(value, 4),
         };
-        let row = widgets::form_row(ui, self.name, |ui| {
+        let row = widgets::wide_form_row(ui, self.name, CONDITION, |ui| {
             ui.spacing_mut().item_spacing.x = STEP;
             let Some(value) = value else {
-                now_ui(ui, &actual.map_or("none".to_owned(), shown));
+                let radius = actual.filter(|_| quantity == Quantity::Curvature);
+                let now = now_ui(ui, &actual.map_or("none".to_owned(), shown));
+                if let Some(curvature) = radius {
+                    now.on_hover_text(format!("R {}", figures::radius_of(curvature, 6)));
+                }
                 return self.lock_ui(ui);
             };
             let size = value.abs().max(actual.unwrap_or_default().abs());
@@ -77,6 +86,11 @@ impl Condition {
             };
             let name = format!("target {}", self.name.to_lowercase());
             let field = NumberField::new(&name, value, shown(value)).speed(speed);
+            let radius = format!("R {}", figures::radius_of(value, 6));
+            let field = match quantity {
+                Quantity::Curvature => field.help(&radius),
+                _ => field,
+            };
             let event = field.quantity(quantity).width(FIELD).show(ui);
             self.lock_ui(ui).or(event.map(|event| event.map(set)))
         });
@@ -98,7 +112,7 @@ impl Condition {
                 NumberField::new(name, value, format!("{value:.3}")).speed(0.005)
             })
         });
-        let row = widgets::form_row(ui, caption, |ui| {
+        let row = widgets::wide_form_row(ui, caption, CONDITION, |ui| {
             ui.spacing_mut().item_spacing.x = STEP;
             self.lock_ui(ui)
         });
@@ -107,11 +121,12 @@ impl Condition {
     }
 }
 
-fn now_ui(ui: &mut Ui, actual: &str) {
+fn now_ui(ui: &mut Ui, actual: &str) -> Response {
     let text = format!("now {actual}");
     let (rect, response) = ui.allocate_exact_size(vec2(FIELD, ROW), Sense::hover());
-    widgets::number_in(ui, rect, &text, Tokens::of(ui).faint_text);
+    widgets::number_in(ui, rect, actual, Tokens::of(ui).faint_text);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &text));
+    response
 }
 
 /// Show the end as it is, and its target.
@@ -166,7 +181,7 @@ fn actual_ui(ui: &mut Ui, report: &EndFitReport, pixel: f64) {
     };
     let digits = if report.planar { 0.01 } else { 0.1 };
     let point = written(report.actual.point, digits * pixel);
-    widgets::figure_row(ui, "Current end point", &point);
+    let point = document_unit::length(ui.ctx(), point);
     let tangent = match report.actual.direction {
         Some(tangent) => match report.angle_of(tangent) {
             Some(angle) => figures::degrees(angle, 3),
@@ -174,7 +189,12 @@ fn actual_ui(ui: &mut Ui, report: &EndFitReport, pixel: f64) {
         },
         None => "none: a cusp".to_owned(),
     };
-    widgets::figure_row(ui, "Current tangent", &tangent);
+    if report.planar {
+        widgets::figure_row(ui, "Current end", &format!("{point}  {tangent}"));
+    } else {
+        widgets::figure_row(ui, "Current end point", &point);
+        widgets::figure_row(ui, "Current tangent", &tangent);
+    }
 }
 
 /// Show what the target requires beyond its place: direction, curvature, plane and slope.

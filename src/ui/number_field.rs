@@ -322,15 +322,33 @@ impl<'a> NumberField<'a> {
             ui.painter()
                 .rect(rect, RADIUS, fill, outline, StrokeKind::Inside);
         }
-        let at = pos2(rect.right() - 1.5 * STEP, rect.center().y);
+        let mut at = pos2(rect.right() - 1.5 * STEP, rect.center().y);
         let painter = ui.painter_at(rect);
         let colour = match (is_hot, self.read_only) {
             (true, _) => tokens.strong_text,
             (false, true) => tokens.faint_text,
             (false, false) => ui.visuals().widgets.style(response).text_color(),
         };
-        let text = self.fitting(&painter, rect.width() - 2.0 * STEP);
+        let room = rect.width() - 2.0 * STEP;
+        let text = self.fitting(&painter, room);
+        let width = |text: &str| labels::size(&painter, text, theme::number_font()).x;
+        // A number goes before its unit where there is no room for both.
+        let unit = self
+            .unit(ui)
+            .filter(|unit| width(&text) + width(unit) + STEP <= room);
+        if let Some(unit) = unit {
+            let colour = tokens.faint_text;
+            let drawn = painter.text(at, Align2::RIGHT_CENTER, unit, theme::number_font(), colour);
+            at.x = drawn.left() - STEP;
+        }
         painter.text(at, Align2::RIGHT_CENTER, text, theme::number_font(), colour);
+    }
+
+    /// The unit that stands behind a length; in a table it stands above the column.
+    fn unit(&self, ui: &Ui) -> Option<&'static str> {
+        let is_length = self.quantity == Quantity::Length && !self.flat && !self.shown.is_empty();
+        let unit = document_unit::get(ui.ctx()).filter(|_| is_length)?;
+        Some(unit.symbol())
     }
 
     /// The text that fits: a number too long for the field gets fewer digits, and if that is not enough

@@ -6,9 +6,10 @@ use lucide_icons::Icon;
 use super::number_field::NumberField;
 use super::theme::{self, RADIUS, ROW, STEP, Tokens};
 use super::vertex_columns::{Cell, Column};
-use super::widgets;
+use super::{document_unit, widgets};
 use crate::document::{Curve, CurveId, Edit};
 use crate::editor::{Editor, told};
+use crate::geometry::parameters::Quantity;
 
 /// The width of the column of vertex numbers.
 const NUMBER: f32 = 44.0;
@@ -173,6 +174,7 @@ impl Rows<'_> {
 
 /// Show the names of the columns.
 pub fn heading_ui(ui: &mut Ui, columns: &[Column], width: f32) {
+    let context = ui.ctx().clone();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         let colour = Tokens::of(ui).faint_text;
@@ -191,7 +193,12 @@ pub fn heading_ui(ui: &mut Ui, columns: &[Column], width: f32) {
         cell("vertex", NUMBER);
         cell("", LOCK);
         for column in columns {
-            cell(column.name(), width);
+            let name = column.name().to_owned();
+            let name = match column.quantity() {
+                Quantity::Length => document_unit::length(&context, name),
+                _ => name,
+            };
+            cell(&name, width);
         }
     });
 }

@@ -8,7 +8,7 @@ use crate::editor::reply::Reply;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::end_correction::{EndDifference, EndOverlap, EndTarget};
-use crate::geometry::{Continuity, End, Jet, ParametricCurve, Range};
+use crate::geometry::{Continuity, End, Jet, ParametricCurve};
 use crate::operations::LargestMove;
 
 /// The loop's tolerance that is offered, in units of the polygon's size.
@@ -37,10 +37,6 @@ pub struct EndFitReport {
     pub terminal: usize,
     /// The number of vertices N.
     pub vertices: usize,
-    /// Step 1: the smallest and largest leg.
-    pub legs: Option<Range>,
-    /// Step 1: the smallest and largest turning angle, in radians.
-    pub turns: Option<Range>,
     /// The actual end, as a target that it meets: its direction is the unit tangent, none at a cusp.
     pub actual: EndTarget,
     /// The target as a whole; `None` until it is set.
@@ -254,7 +250,6 @@ impl EndFitSettings {
     ) -> EndFitReport {
         let curve = analysis.curve().clone();
         let polygon = &curve.polygon;
-        let figures = analysis.float().figures();
         let jet = polygon.end_jet(self.end);
         let target = curve.targets.get(self.end);
         let difference = target.map(|target| EndDifference::between(polygon, self.end, &target));
@@ -276,8 +271,6 @@ impl EndFitSettings {
             degree: polygon.degree(),
             terminal: polygon.terminal_vertices(self.end).len(),
             vertices: polygon.vertices().len(),
-            legs: figures.legs,
-            turns: figures.turns,
             actual: Continuity::G3.target(&jet, planar),
             target,
             difference: difference.map_or(DVec3::ZERO, |difference| {
