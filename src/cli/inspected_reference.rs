@@ -60,7 +60,7 @@ impl InspectedReference {
         Self {
             name: reference.name.clone(),
             kind: curve.form().name(),
-            text: points.is_none().then(|| curve.to_string()),
+            text: curve.form().has_text().then(|| curve.to_string()),
             parameters: parameters(curve.form()),
             points: points.map(|points| points.iter().map(|it| it.to_array()).collect()),
             interval: curve.interval(),
@@ -117,5 +117,20 @@ fn parameters(form: &ReferenceForm) -> Map<String, Value> {
             given.collect()
         }
         ReferenceForm::Points(_) => Map::new(),
+        ReferenceForm::Nurbs(nurbs) => {
+            let points = nurbs.points().iter().map(|it| it.to_array());
+            let points: Vec<[f64; 3]> = points.collect();
+            let named = [
+                ("degree", json!(nurbs.degree())),
+                ("knots", json!(nurbs.knots())),
+                ("points", json!(points)),
+                ("weights", json!(nurbs.weights())),
+                ("periodic", json!(nurbs.is_periodic())),
+            ];
+            let named = named.into_iter();
+            named
+                .map(|(name, value)| (name.to_owned(), value))
+                .collect()
+        }
     }
 }

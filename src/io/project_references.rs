@@ -10,7 +10,7 @@ use super::object::Object;
 use super::project_values::{self, ByName, Coordinates};
 use crate::document::{Colour, Reference};
 use crate::geometry::references::{
-    AnalyticForm, Formula, KINDS, Placement, PointList, ReferenceCurve, ReferenceError,
+    AnalyticForm, Formula, KINDS, Nurbs, Placement, PointList, ReferenceCurve, ReferenceError,
     ReferenceForm, ReferenceKind, find,
 };
 
@@ -35,9 +35,18 @@ pub(super) struct ProjectReference {
     formula: Option<FileFormula>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     points: Option<Vec<Coordinates>>,
-    /// How much each point counts.
+    /// How much each point counts; of a B-spline the weights of its control points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     weights: Option<Vec<f64>>,
+    /// The degree of a B-spline, whose control points are the points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    degree: Option<usize>,
+    /// The knots of a B-spline.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    knots: Option<Vec<f64>>,
+    /// Whether its file calls a B-spline periodic.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    periodic: Option<bool>,
     /// The interval of the parameter t.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     interval: Option<[f64; 2]>,
@@ -95,6 +104,17 @@ impl ProjectReference {
                 written.points = Some(points.collect());
                 written.weights = list.weights().map(<[f64]>::to_vec);
             }
+            ReferenceForm::Nurbs(nurbs) => {
+                let planar = nurbs.is_planar();
+                let points = nurbs.points().iter();
+                let points = points.map(|point| Coordinates::of(*point, planar));
+                written.points = Some(points.collect());
+                written.weights = nurbs.weights().map(<[f64]>::to_vec);
+                written.degree = Some(nurbs.degree());
+                written.knots = Some(nurbs.knots().to_vec());
+                written.periodic = nurbs.is_periodic().then_some(true);
+                written.interval = Some(curve.interval());
+            }
         }
         let placement = curve.placement();
         if *placement != Placement::default() {
@@ -129,6 +149,13 @@ impl ProjectReference {
             (Some(kind), None, None) => ReferenceForm::Analytic(analytic(&kind, &self.values)?),
             (None, Some(FileFormula { x, y, z }), None) => {
                 ReferenceForm::Formula(Formula::new(&x, &y, z.as_deref())?)
+            }
+            (None, None, Some(points)) if let Some(knots) = self.knots => {
+                let points = project_values::points("point", points)?;
+                let degree = self.degree.ok_or(Problem::NoReference)?;
+                let periodic = self.periodic.unwrap_or(false);
+                let nurbs = Nurbs::new(degree, knots, points, self.weights, periodic);
+                ReferenceForm::Nurbs(nurbs.map_err(ReferenceError::from)?)
             }
             (None, None, Some(points)) => {
                 let list = PointList::new(project_values::points("point", points)?)?;

@@ -42,6 +42,17 @@ pub fn shape_ui(
         ReferenceForm::Points(list) => {
             widgets::figure_row(ui, "Points", &list.points().len().to_string());
         }
+        ReferenceForm::Nurbs(nurbs) => {
+            widgets::note(
+                ui,
+                "A B-spline on its own knots. Approximate makes a curve of it.",
+            );
+            widgets::figure_row(ui, "Degree", &nurbs.degree().to_string());
+            widgets::figure_row(ui, "Control points", &nurbs.points().len().to_string());
+            let is_rational = nurbs.weights().is_some();
+            widgets::fact_row(ui, "Weights", if is_rational { "rational" } else { "none" });
+            interval_ui(ui, editor, curve);
+        }
     }
 }
 

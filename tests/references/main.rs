@@ -4,5 +4,6 @@
 mod common;
 
 mod numbers;
+mod nurbs;
 mod texts;
 mod values;

@@ -1,5 +1,7 @@
 //! A reference curve: a form over an interval, placed.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::error::ReferenceError;
@@ -28,13 +30,15 @@ const PIECES: std::ops::RangeInclusive<usize> = 8..=1024;
 ///
 /// As a [`ParametricCurve`] it has pieces over even parts of the interval, each of a moderate turning,
 /// and as many continuous derivatives as one likes; points have a piece for each straight line
-/// between two of them, and no continuous derivative.
+/// between two of them, and no continuous derivative; a B-spline has pieces between its knots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceCurve {
     form: ReferenceForm,
     interval: [f64; 2],
     placement: Placement,
     pieces: usize,
+    /// The ends of the pieces of a B-spline; empty where pieces are even.
+    breaks: Arc<[f64]>,
 }
 
 impl ReferenceCurve {
@@ -54,6 +58,7 @@ impl ReferenceCurve {
             return Ok(Self {
                 interval: form.default_interval(),
                 pieces: points.points().len() - 1,
+                breaks: Arc::default(),
                 form,
                 placement,
             });
@@ -74,12 +79,17 @@ impl ReferenceCurve {
             interval: [from, to],
             placement,
             pieces: 1,
+            breaks: Arc::default(),
         };
         let Some(turning) = curve.sampled_turning()? else {
             return Err(ReferenceError::OnePoint);
         };
         let pieces = (turning / PIECE_TURNING).ceil() as usize;
         curve.pieces = pieces.clamp(*PIECES.start(), *PIECES.end());
+        if let ReferenceForm::Nurbs(nurbs) = &curve.form {
+            curve.breaks = nurbs.breaks([from, to]).into();
+            curve.pieces = curve.breaks.len() - 1;
+        }
         Ok(curve)
     }
 
@@ -135,9 +145,19 @@ impl ReferenceCurve {
 
     /// The parameter t that belongs to the parameter u of the curve in pieces.
     pub fn parameter(&self, u: f64) -> f64 {
-        let [from, to] = self.interval;
-        let share = u / self.pieces as f64;
+        let ([from, to], share) = match self.breaks.is_empty() {
+            true => (self.interval, u / self.pieces as f64),
+            false => {
+                let (piece, local) = self.locate(u);
+                (self.ends(piece), local)
+            }
+        };
         from * (1.0 - share) + to * share
+    }
+
+    /// The parameters t at the ends of a piece of a B-spline.
+    fn ends(&self, piece: usize) -> [f64; 2] {
+        [self.breaks[piece], self.breaks[piece + 1]]
     }
 
     fn placed_values(&self, mut values: Vec<DVec3>) -> Vec<DVec3> {
@@ -189,6 +209,7 @@ impl Differentiable for ReferenceCurve {
                 PowerSeries::derivatives(formula.series(&t).each_ref())
             }
             ReferenceForm::Points(points) => points.derivatives(t, order),
+            ReferenceForm::Nurbs(nurbs) => nurbs.derivatives(t, order),
         })
     }
 
@@ -196,6 +217,7 @@ impl Differentiable for ReferenceCurve {
         let coordinates = match &self.form {
             ReferenceForm::Analytic(form) => form.enclosed(t)?,
             ReferenceForm::Formula(formula) => formula.series(t),
+            ReferenceForm::Nurbs(nurbs) => nurbs.enclosed(t)?,
             ReferenceForm::Points(_) => return None,
         };
         Some(self.placement.enclosed(coordinates))
@@ -216,7 +238,11 @@ impl ParametricCurve for ReferenceCurve {
     }
 
     fn continuity(&self) -> usize {
-        if self.form.is_smooth() { usize::MAX } else { 0 }
+        match &self.form {
+            ReferenceForm::Points(_) => 0,
+            ReferenceForm::Nurbs(nurbs) => nurbs.continuity(),
+            _ => usize::MAX,
+        }
     }
 
     fn fill_derivatives(&self, piece: usize, t: f64, values: &mut [DVec3]) {
@@ -229,10 +255,18 @@ impl ParametricCurve for ReferenceCurve {
             ReferenceForm::Points(points) => {
                 self.placed_values(points.leg_derivatives(piece, t, order))
             }
+            // At a knot too.
+            ReferenceForm::Nurbs(nurbs) => {
+                let [from, to] = self.ends(piece);
+                let at = from * (1.0 - t) + to * t;
+                self.placed_values(nurbs.derivatives_beside(0.5 * (from + to), at, order))
+            }
             _ => self.derivatives(self.parameter(piece as f64 + t), order),
         };
-        let [from, to] = self.interval;
-        let rate = (to - from) / self.pieces as f64;
+        let rate = match self.breaks.is_empty() {
+            true => (self.interval[1] - self.interval[0]) / self.pieces as f64,
+            false => self.breaks[piece + 1] - self.breaks[piece],
+        };
         let mut factor = 1.0;
         for (value, found) in values.iter_mut().zip(found) {
             *value = found * factor;

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::nurbs::NurbsError;
 use crate::geometry::expressions::{ExpressionError, ExpressionMistake};
 use crate::geometry::parameters::OutOfRange;
 
@@ -74,6 +75,9 @@ pub enum ReferenceError {
     /// A value is not allowed.
     #[error(transparent)]
     OutOfRange(#[from] OutOfRange),
+    /// Numbers are no B-spline.
+    #[error(transparent)]
+    Nurbs(#[from] NurbsError),
     /// The interval is empty or not finite.
     #[error(
         "the interval from t = {from} to t = {to} is empty: give two numbers, the smaller one first"

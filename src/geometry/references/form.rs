@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::error::ReferenceError;
 use super::formula::Formula;
 use super::kind::{EVERYWHERE, ReferenceKind};
+use super::nurbs::Nurbs;
 use super::point_list::PointList;
 use crate::geometry::interval::Interval;
 use crate::geometry::power_series::PowerSeries;
@@ -18,6 +19,8 @@ pub enum ReferenceForm {
     Formula(Formula),
     /// Points, joined by straight lines.
     Points(PointList),
+    /// A B-spline on any knots.
+    Nurbs(Nurbs),
 }
 
 /// Kind of curve with a checked value for each parameter.
@@ -80,6 +83,7 @@ impl ReferenceForm {
             Self::Analytic(form) => form.kind.name,
             Self::Formula(_) => "formula",
             Self::Points(_) => "points",
+            Self::Nurbs(_) => "nurbs",
         }
     }
 
@@ -89,6 +93,7 @@ impl ReferenceForm {
             Self::Analytic(form) => form.kind.label,
             Self::Formula(_) => "Formula",
             Self::Points(_) => "Points",
+            Self::Nurbs(_) => "NURBS",
         }
     }
 
@@ -98,10 +103,16 @@ impl ReferenceForm {
             Self::Analytic(form) => form.kind.is_planar(),
             Self::Formula(formula) => formula.texts()[2].is_none(),
             Self::Points(points) => points.is_planar(),
+            Self::Nurbs(nurbs) => nurbs.is_planar(),
         }
     }
 
-    /// Whether it has derivatives of every order; points have none.
+    /// Whether a text in the command line describes it.
+    pub fn has_text(&self) -> bool {
+        matches!(self, Self::Analytic(_) | Self::Formula(_))
+    }
+
+    /// Whether it has a curvature, but perhaps at the knots of a B-spline; points have none.
     pub fn is_smooth(&self) -> bool {
         !matches!(self, Self::Points(_))
     }
@@ -117,6 +128,7 @@ impl ReferenceForm {
             Self::Analytic(form) => (form.kind.interval)(&form.values),
             Self::Formula(_) => [0.0, 1.0],
             Self::Points(points) => [0.0, (points.points().len() - 1) as f64],
+            Self::Nurbs(nurbs) => nurbs.interval(),
         }
     }
 
@@ -125,7 +137,7 @@ impl ReferenceForm {
         match self {
             Self::Analytic(form) => (form.kind.domain)(&form.values),
             Self::Formula(_) => EVERYWHERE,
-            Self::Points(_) => self.default_interval(),
+            Self::Points(_) | Self::Nurbs(_) => self.default_interval(),
         }
     }
 }

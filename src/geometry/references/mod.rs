@@ -1,4 +1,4 @@
-//! Reference curves: curves given by formulas or points, to draw after, to measure by and to
+//! Reference curves: curves given by formulas, points or knots of their own, to draw after, to measure by and to
 //! approximate, never edited by vertices.
 //!
 //! A kind is a value ([`ReferenceKind`]): its words, its parameters described once, and one function
@@ -16,6 +16,8 @@ mod integral;
 mod kind;
 pub(super) mod log_aesthetic;
 mod nielsen_spiral;
+mod nurbs;
+mod nurbs_float;
 mod placement;
 mod point_list;
 pub(super) mod superspiral;
@@ -26,6 +28,7 @@ pub use error::{ReferenceError, ReferenceTextError};
 pub use form::{AnalyticForm, ReferenceForm};
 pub use formula::Formula;
 pub use kind::ReferenceKind;
+pub use nurbs::{Nurbs, NurbsError};
 pub use placement::Placement;
 pub use point_list::PointList;
 

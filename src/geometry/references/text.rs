@@ -70,7 +70,7 @@ impl ReferenceCurve {
 
 impl fmt::Display for ReferenceCurve {
     /// Write the reference as [`ReferenceCurve::from_text`] reads it, apart from its placement; points
-    /// have no text but their number.
+    /// and B-splines have no text but their numbers.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let interval = INTERVAL.into_iter().zip(self.interval());
         let interval = interval.map(|(name, value)| format!("{name}={value}"));
@@ -87,6 +87,10 @@ impl fmt::Display for ReferenceCurve {
             }
             ReferenceForm::Points(points) => {
                 return write!(formatter, "{} points", points.points().len());
+            }
+            ReferenceForm::Nurbs(nurbs) => {
+                let (degree, points) = (nurbs.degree(), nurbs.points().len());
+                return write!(formatter, "NURBS of degree {degree} with {points} points");
             }
         };
         let given: Vec<String> = given.into_iter().chain(interval).collect();
