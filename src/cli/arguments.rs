@@ -8,6 +8,7 @@ use clap::{CommandFactory, Error, Parser, Subcommand};
 use super::apply::Application;
 use super::apply_arguments::{ApplyArguments, Given};
 use super::ends::{Destination, Source};
+use super::list::Listed;
 use super::many_files::ManyFiles;
 use super::parsers::{
     columns, count, example_parser, format_parser, parameter, polygon_parser, spacing_parser,
@@ -28,7 +29,7 @@ const LEAST_LIKENESS: f64 = 0.7;
 #[derive(Debug, Parser)]
 #[command(name = "batten", version, args_conflicts_with_subcommands = true)]
 #[command(
-    after_help = "Formats are told by their extensions: .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc and .xy are read and written, .gpx is read, .dxf is written.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place, or what was asked for is not reached; 2 bad usage."
+    after_help = "Formats are told by their extensions: .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf, .step, .igs, .3dm, .svg, .glif, .obj, .brep and .json are read and written, .gpx is read.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place, or what was asked for is not reached; 2 bad usage."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
@@ -137,6 +138,20 @@ enum Command {
     Apply(ApplyArguments),
     /// List the references that `batten apply approximate` knows, with their parameters
     References,
+    /// List what a file of a CAD or drawing program holds, as JSON
+    List {
+        /// The file to read; its extension tells the format
+        file: PathBuf,
+        /// The format to read, whatever the file's extension
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::drawn()))]
+        from_format: Option<&'static Format>,
+        /// List edges of solids and boundaries of surfaces too
+        #[arg(long)]
+        edges: bool,
+        /// List layouts for printing too
+        #[arg(long)]
+        paper_space: bool,
+    },
     /// Print the curves and references of a file as JSON, with full double precision
     Inspect {
         /// The file to read, or - for the standard input; its extension tells the format
@@ -204,6 +219,15 @@ pub(super) enum Task {
     ApplyToMany(ManyFiles, Vec<Application>),
     /// List the kinds of references.
     References,
+    /// List what a drawing holds.
+    List {
+        /// The file.
+        file: PathBuf,
+        /// The format, whatever the file's name says.
+        format: Option<&'static Format>,
+        /// The items beside the free ones.
+        listed: Listed,
+    },
     /// Print curves and references in numbers.
     Inspect {
         /// The source.
@@ -281,6 +305,19 @@ impl Arguments {
                 None => Task::Apply(application(&given, given.input.clone(), given.out.clone())?),
             },
             Some(Command::References) => Task::References,
+            Some(Command::List {
+                file,
+                from_format,
+                edges,
+                paper_space,
+            }) => Task::List {
+                file,
+                format: from_format,
+                listed: Listed {
+                    edges,
+                    paper: paper_space,
+                },
+            },
             Some(Command::Inspect {
                 file,
                 from_format,

@@ -33,7 +33,6 @@ pub(super) fn convert(
     let is_converted = polygon.is_some_and(|kind| kind != PolygonKind::Float);
     if is_converted
         && !force
-        && format.can_read()
         && let Err(error) = format.read(&export.bytes)
     {
         bail!(

@@ -12,6 +12,7 @@ mod feature_lists;
 mod inspect;
 mod inspected_reference;
 mod items;
+mod list;
 mod many_files;
 mod output;
 mod parsers;
@@ -70,6 +71,11 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
             density,
             curve,
         }) => points::run(&source, &destination, density, curve.as_deref()),
+        Ok(Task::List {
+            file,
+            format,
+            listed,
+        }) => list::run(&file, format, listed),
         Ok(Task::Inspect { source, at }) => inspect::run(&source, &at),
         Err(error) => {
             if error.use_stderr() {

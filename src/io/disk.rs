@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use super::error::{FileError, FileProblem};
+use super::exchange::drawing::Drawing;
 use super::fingerprint::Fingerprint;
 use super::format::Format;
 use super::formats;
@@ -57,6 +58,22 @@ pub fn read_with_fingerprint(
     let reading = format.read_columns(&bytes, choice);
     let reading = reading.map_err(FileError::at(path))?;
     Ok((reading, Fingerprint::of(&bytes)))
+}
+
+/// Read everything that a file of another program holds, with the name of its format; `format` is one that is given,
+/// whatever the name.
+///
+/// # Errors
+/// As [`read_file`], also for formats that are no drawings.
+pub fn draw_file(
+    path: &Path,
+    format: Option<&Format>,
+) -> Result<(Drawing, &'static str), FileError> {
+    let format = format.map_or_else(|| formats::to_read(path), Ok);
+    let format = format.map_err(FileError::at(path))?;
+    let bytes = read_bytes(path).map_err(FileError::at(path))?;
+    let drawing = format.draw(&bytes).map_err(FileError::at(path))?;
+    Ok((drawing, format.name))
 }
 
 /// The fingerprint of what a file holds now; `None` if there is no such file, or it cannot be read.

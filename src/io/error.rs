@@ -121,9 +121,12 @@ impl std::error::Error for ReadError {}
 /// A problem of a file's content.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum Problem {
-    /// Files of the format are only written.
-    #[error("{0} files can be written but not read")]
-    Unreadable(&'static str),
+    /// Nothing of a drawing can be read.
+    #[error("{0}")]
+    Drawing(String),
+    /// The format holds no drawings of other programs.
+    #[error("{0} files are no drawings of other programs: “batten inspect” prints what they hold")]
+    NoDrawing(&'static str),
     /// The file has no content.
     #[error("the file is empty")]
     Empty,
@@ -383,6 +386,14 @@ pub enum WriteError {
     /// Files of the format are only read.
     #[error("{0} files can be read but not written")]
     ReadOnly(&'static str),
+    /// The format cannot hold a curve.
+    #[error("{format}: {reason}")]
+    Refused {
+        /// The name of the format.
+        format: &'static str,
+        /// Which curve, and why.
+        reason: String,
+    },
     /// A curve has more vertices than the format can count.
     #[error(
         "{} has {vertices} vertices, and a {format} file can hold {most} a curve: split the curve",
@@ -425,14 +436,6 @@ pub enum FormatError {
         /// The name of the format.
         format: &'static str,
         /// The extensions that can be written.
-        known: String,
-    },
-    /// The format is only written.
-    #[error("{format} files can be written but not read: the formats that can be read are {known}")]
-    NotReadable {
-        /// The name of the format.
-        format: &'static str,
-        /// The extensions that can be read.
         known: String,
     },
 }

@@ -3,12 +3,16 @@
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-use super::error::{Problem, ReadError, WriteError};
+use super::error::{Place, Problem, ReadError, WriteError};
+use super::exchange::drawing::{Drawing, Unreadable};
 use super::loss::{Export, LossReport};
 use super::reading::Reading;
 use super::table_columns::ColumnChoice;
 use crate::document::Document;
 use crate::geometry::PolygonKind;
+
+/// A file with a zero among so many bytes is binary.
+const TOLD_BY: usize = 1024;
 
 /// A file format. Its module defines it as a static row; [`super::formats`] lists the rows.
 pub struct Format {
@@ -16,10 +20,12 @@ pub struct Format {
     pub name: &'static str,
     /// The extensions of its files in lower case, without the dot. New files get the first.
     pub extensions: &'static [&'static str],
-    /// Reads the bytes of a file; `None` if the format is only written.
+    /// Reads the bytes of a file; `None` if it is a drawing.
     pub(super) read: Option<ReadBytes>,
     /// Reads a file whose points are in chosen columns; `None` if it has no columns.
     pub(super) read_chosen: Option<ReadChosen>,
+    /// Reads what a file of another program holds; `None` for Batten's own and for tables.
+    pub(super) draw: Option<DrawBytes>,
     /// Writes a document and reports what the file does not hold; `None` if the format is only read.
     pub(super) write: Option<WriteDocument>,
     /// Whether it holds matches and unknown keys; then a document can be saved in it.
@@ -33,6 +39,9 @@ type ReadBytes = fn(&[u8]) -> Result<Reading, ReadError>;
 
 /// Read the bytes of a file from chosen columns.
 type ReadChosen = fn(&[u8], &ColumnChoice) -> Result<Reading, ReadError>;
+
+/// Read the bytes of a file as a drawing.
+type DrawBytes = fn(&[u8]) -> Result<Drawing, Unreadable>;
 
 /// Write a document by one of its polygons; without a choice by those that the format prefers.
 type WriteDocument =
@@ -68,11 +77,6 @@ impl Format {
         self.extensions.first().copied().unwrap_or_default()
     }
 
-    /// Whether files of the format can be read.
-    pub fn can_read(&self) -> bool {
-        self.read.is_some()
-    }
-
     /// Whether documents can be written in the format.
     pub fn can_write(&self) -> bool {
         self.write.is_some()
@@ -81,7 +85,7 @@ impl Format {
     /// Read the bytes of a file.
     ///
     /// # Errors
-    /// [`ReadError`] with the place. A format that [cannot be read](Self::can_read) says so.
+    /// [`ReadError`] with the place.
     pub fn read(&self, bytes: &[u8]) -> Result<Reading, ReadError> {
         self.read_columns(bytes, None)
     }
@@ -98,8 +102,31 @@ impl Format {
         match (self.read, choice) {
             (Some(read), None) => read(bytes),
             (Some(_), Some(choice)) => self.read_chosen.ok_or(Problem::NoChoice)?(bytes, choice),
-            (None, _) => Err(Problem::Unreadable(self.name).into()),
+            (None, Some(_)) if self.draw.is_some() => Err(Problem::NoChoice.into()),
+            (None, _) => Ok(self.draw(bytes)?.reading()),
         }
+    }
+
+    /// Read everything that a file of another program holds.
+    ///
+    /// # Errors
+    /// [`ReadError`] with the place if nothing can be read, or if the format has no drawings.
+    pub fn draw(&self, bytes: &[u8]) -> Result<Drawing, ReadError> {
+        let draw = self.draw.ok_or(Problem::NoDrawing(self.name))?;
+        draw(bytes).map_err(|Unreadable { at, reason }| {
+            // Binary files have no lines.
+            let is_binary = bytes.iter().take(TOLD_BY).any(|byte| *byte == 0);
+            match (at, is_binary) {
+                (Some(at), false) => Place::line(at as usize).problem(Problem::Drawing(reason)),
+                (Some(at), true) => Problem::Drawing(format!("byte {at}: {reason}")).into(),
+                (None, _) => Problem::Drawing(reason).into(),
+            }
+        })
+    }
+
+    /// Whether its files are drawings of other programs.
+    pub fn draws(&self) -> bool {
+        self.draw.is_some()
     }
 
     /// Write a document to bytes.

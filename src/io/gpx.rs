@@ -17,6 +17,7 @@ pub static GPX: Format = Format {
     extensions: &["gpx"],
     read: Some(read),
     read_chosen: None,
+    draw: None,
     write: None,
     holds_documents: false,
     exports: &[],

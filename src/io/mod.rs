@@ -13,6 +13,7 @@ pub mod disk;
 mod dxf;
 mod error;
 pub mod examples;
+pub mod exchange;
 mod file_match;
 mod fingerprint;
 mod format;

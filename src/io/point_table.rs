@@ -25,6 +25,7 @@ pub static POINT_TABLE: Format = Format {
     extensions: &["dat", "txt", "xyz", "pts", "asc", "xy"],
     read: Some(table::read),
     read_chosen: Some(table::read_chosen),
+    draw: None,
     write: Some(write),
     holds_documents: false,
     exports: &[],

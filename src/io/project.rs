@@ -36,6 +36,7 @@ pub static PROJECT: Format = Format {
     read: Some(read),
     write: Some(write),
     read_chosen: None,
+    draw: None,
     holds_documents: true,
     exports: &[],
 };

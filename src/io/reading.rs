@@ -111,6 +111,8 @@ pub enum Remark {
         /// The longitude, east.
         longitude: f64,
     },
+    /// What the reader of a drawing tells.
+    Drawn(String),
     /// A curve whose float polygon gives it back only nearly.
     CurveOff {
         /// The curve, counted from 1, with its name.
@@ -382,6 +384,7 @@ impl fmt::Display for Remark {
                 curve(owner),
                 rounded_up(*by)
             ),
+            Self::Drawn(told) => formatter.write_str(told),
             Self::Latin1 => write!(formatter, "the text is not UTF-8 and was read as Latin-1"),
             Self::Skipped(lines) => write!(
                 formatter,

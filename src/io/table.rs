@@ -48,6 +48,7 @@ pub static TABLE: Format = Format {
     extensions: &["csv"],
     read: Some(read),
     read_chosen: Some(read_chosen),
+    draw: None,
     write: Some(write),
     holds_documents: false,
     exports: &[
@@ -73,6 +74,7 @@ pub static TAB_TABLE: Format = Format {
     extensions: &["tsv"],
     read: Some(read),
     read_chosen: Some(read_chosen),
+    draw: None,
     write: Some(write_with_tabs),
     holds_documents: false,
     exports: &[],

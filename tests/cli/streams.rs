@@ -112,8 +112,8 @@ fn a_pipe_needs_a_format() {
     folder.misused(&["convert", "arc.batten", "-"], "--to-format");
     folder.misused(&["example", "arc", "-"], "--to-format");
     folder.misused(
-        &["convert", "-", "out.csv", "--from-format", "dxf"],
-        "possible values: batten, csv, tsv, dat, gpx",
+        &["convert", "-", "out.csv", "--from-format", "docx"],
+        "possible values: batten, csv, tsv, dat, gpx, dxf, step",
     );
     assert!(!folder.path("-").exists());
 }

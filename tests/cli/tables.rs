@@ -222,7 +222,7 @@ fn tables_are_told_by_more_extensions() {
     );
     let output = folder.run(&["inspect", "a.survey"]);
     let (_, told) = texts(&output);
-    let hint = ".gpx, or name its format with --from-format\n";
+    let hint = ".json, or name its format with --from-format\n";
     assert!(told.ends_with(hint), "{told}");
     let inspected = folder.inspect(&["a.survey", "--from-format", "dat"]);
     assert_eq!(points(&inspected).len(), 3);
@@ -240,7 +240,7 @@ fn a_track_is_read_in_metres() {
     folder.done(&["convert", "bay.gpx", "bay.batten"]);
     folder.refused(
         &["convert", "bay.batten", "out.gpx"],
-        "out.gpx: GPX files can be read but not written: the formats that can be written are .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf",
+        "out.gpx: GPX files can be read but not written: the formats that can be written are .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf, .step, .stp, .p21, .ap242, .igs, .iges, .3dm, .svg, .glif, .obj, .brep, .brp, .json",
     );
 }
 

@@ -1,4 +1,4 @@
-//! AutoCAD's drawing exchange format, version AC1015 (AutoCAD 2000), written only.
+//! AutoCAD's drawing exchange format, version AC1015 (AutoCAD 2000), as it is written.
 //!
 //! Each curve is a SPLINE on clamped knots that start at 0, which is what readers agree on,
 //! with its polygons beside it as polylines on layers of their own. The header says the unit of the
@@ -10,6 +10,7 @@ use glam::DVec3;
 use crate::document::{Curve, Document};
 use crate::geometry::{ClampedPolygon, PolygonKind};
 use crate::io::error::WriteError;
+use crate::io::exchange;
 use crate::io::format::{ExportRow, Format};
 use crate::io::layer_names::LayerNames;
 use crate::io::loss::{Loss, LossReport};
@@ -28,6 +29,7 @@ pub static DXF: Format = Format {
     read: None,
     write: Some(write),
     read_chosen: None,
+    draw: Some(exchange::dxf::read),
     holds_documents: false,
     exports: &[ExportRow {
         label: "Export DXF…",

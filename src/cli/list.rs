@@ -1,0 +1,135 @@
+//! `batten list`: what a file of another program holds, as JSON.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::output;
+use crate::geometry::expressions::LengthUnit;
+use crate::io::exchange::drawing::{Drawing, Item, Shape, Space};
+use crate::io::{Format, disk, json_layout};
+
+/// The names of units that Batten itself does not have, by their millimetres.
+const OTHER_UNITS: [(&str, f64); 8] = [
+    ("nm", 1e-6),
+    ("µm", 1e-3),
+    ("mil", 0.0254),
+    ("dm", 100.0),
+    ("ft", 304.8),
+    ("yd", 914.4),
+    ("km", 1e6),
+    ("mi", 1_609_344.0),
+];
+
+/// Units that differ by less than this share are one.
+const SAME: f64 = 1e-9;
+
+/// The items that are listed beside the free ones.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Listed {
+    /// Edges of solids and boundaries of surfaces.
+    pub(super) edges: bool,
+    /// Layouts for printing.
+    pub(super) paper: bool,
+}
+
+/// The printed list.
+#[derive(Serialize)]
+struct List {
+    format: &'static str,
+    unit: Option<String>,
+    items: Vec<ListedItem>,
+    other: Vec<ListedOther>,
+    remarks: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct ListedItem {
+    kind: &'static str,
+    degree: Option<usize>,
+    rational: bool,
+    periodic: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    points: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    vertices: Option<usize>,
+    group: String,
+    name: Option<String>,
+    block: Option<String>,
+    /// Whether it becomes a float polygon exactly.
+    curve: bool,
+}
+
+#[derive(Serialize)]
+struct ListedOther {
+    kind: String,
+    count: usize,
+}
+
+/// Print what a file holds.
+///
+/// # Errors
+/// If nothing in it can be read, with the place.
+pub(super) fn run(file: &Path, format: Option<&Format>, listed: Listed) -> anyhow::Result<()> {
+    let (drawing, format) = disk::draw_file(file, format)?;
+    output::print(&json_layout::to_text(&List::of(drawing, format, listed)))
+}
+
+impl List {
+    fn of(drawing: Drawing, format: &'static str, listed: Listed) -> Self {
+        let is_listed = |item: &&Item| match item.space {
+            Space::Model => true,
+            Space::Paper => listed.paper,
+            Space::Edge => listed.edges,
+        };
+        let items = drawing.items.iter().filter(is_listed);
+        let others = drawing.other.iter().map(|other| ListedOther {
+            kind: other.kind.clone(),
+            count: other.count,
+        });
+        Self {
+            format,
+            unit: drawing.unit.map(unit_name),
+            items: items.map(ListedItem::of).collect(),
+            other: others.collect(),
+            remarks: drawing.remarks,
+        }
+    }
+}
+
+impl ListedItem {
+    fn of(item: &Item) -> Self {
+        let splines = || item.shapes.iter().filter_map(Shape::nurbs);
+        let is_conic = |shape: &Shape| matches!(shape, Shape::Conic(_));
+        let points: usize = splines().map(|nurbs| nurbs.points.len()).sum();
+        let vertices: usize = item.shapes.iter().filter_map(Shape::corners).sum();
+        let is_curve = match &item.shapes[..] {
+            [Shape::Nurbs(nurbs)] => {
+                let checked = nurbs.checked().ok();
+                checked.is_some_and(|nurbs| nurbs.float_polygon().is_some())
+            }
+            _ => false,
+        };
+        Self {
+            kind: item.kind.name(),
+            degree: splines().map(|nurbs| nurbs.degree).max(),
+            rational: splines().any(|nurbs| nurbs.weights.is_some())
+                || (splines().next().is_some() && item.shapes.iter().any(is_conic)),
+            periodic: splines().any(|nurbs| nurbs.periodic),
+            points: (points > 0).then_some(points),
+            vertices: (vertices > 0).then_some(vertices),
+            group: item.group.join("/"),
+            name: item.name.clone(),
+            block: item.block.clone(),
+            curve: is_curve,
+        }
+    }
+}
+
+/// The name of a unit of so many millimetres; the number with "mm" if it has none.
+fn unit_name(millimetres: f64) -> String {
+    let own = LengthUnit::ALL.map(|unit| (unit.symbol(), unit.millimetres()));
+    let mut all = own.into_iter().chain(OTHER_UNITS);
+    let found = all.find(|(_, length)| (length / millimetres - 1.0).abs() <= SAME);
+    found.map_or_else(|| format!("{millimetres} mm"), |(name, _)| name.to_owned())
+}

@@ -1,0 +1,352 @@
+//! The drawing as it is seen: entities with their layers and colours, blocks where they are inserted.
+
+use std::collections::{BTreeSet, HashMap};
+use std::rc::Rc;
+
+use glam::DVec3;
+
+use super::colours::Paint;
+use super::groups::Groups;
+use super::notes::Notes;
+use super::parts::{Content, Insert, Part, Parts};
+use super::sections::Sections;
+use crate::io::exchange::drawing::{
+    Affine, Conic, Drawing, Item, Kind, Nurbs, Other, Shape, Space,
+};
+
+/// The deepest nesting of blocks.
+const DEEPEST: usize = 64;
+/// The most entities and blocks that inserts may draw.
+const MOST: usize = 1_000_000;
+/// The bytes up to which inserts may draw, by estimate, for files of up to `USUAL` bytes.
+const MEMORY: usize = 210_000_000;
+/// Files above this get more, `MORE` bytes a byte.
+const USUAL: usize = 10_000_000;
+const MORE: usize = 20;
+/// The most names of hidden layers that a remark lists.
+const LISTED: usize = 12;
+/// The layer whose entities take the layer of the insert.
+const LAYER_OF_INSERT: &str = "0";
+
+/// Draws entities and blocks.
+pub struct Placer<'a, 'n> {
+    sections: &'n Sections<'a>,
+    notes: &'n mut Notes,
+    drawing: Drawing,
+    /// What is no curve, by its name.
+    others: HashMap<String, usize>,
+    /// The entities of the blocks that were inserted so far.
+    parts: HashMap<usize, Rc<Vec<Part>>>,
+    /// The blocks that are being drawn, outermost first.
+    open: Vec<usize>,
+    /// The layers that the file hides and that have items.
+    hidden: BTreeSet<String>,
+    /// How many entities and blocks inserts drew.
+    drawn: usize,
+    /// The bytes that are in use, by estimate.
+    memory: usize,
+    /// The most bytes that inserts may bring about.
+    most_memory: usize,
+    is_full: bool,
+}
+
+/// Where an entity is drawn.
+#[derive(Clone)]
+struct Setting {
+    place: Affine,
+    space: Space,
+    /// The insert around it.
+    insert: Option<Around>,
+}
+
+/// What an insert gives to the entities of its block.
+#[derive(Clone)]
+struct Around {
+    layer: String,
+    colour: Option<[u8; 3]>,
+    block: String,
+}
+
+impl<'a, 'n> Placer<'a, 'n> {
+    /// Start with what was found in a file of some size.
+    pub fn new(sections: &'n Sections<'a>, notes: &'n mut Notes, size: usize) -> Self {
+        let more = size.saturating_sub(USUAL).saturating_mul(MORE);
+        Self {
+            sections,
+            notes,
+            drawing: Drawing::default(),
+            others: HashMap::new(),
+            parts: HashMap::new(),
+            open: Vec::new(),
+            hidden: BTreeSet::new(),
+            drawn: 0,
+            memory: 0,
+            most_memory: MEMORY.saturating_add(more),
+            is_full: false,
+        }
+    }
+
+    /// Draw everything: the entities, then the layouts that are stored as blocks.
+    pub fn drawing(mut self) -> Drawing {
+        let sections = self.sections;
+        for entities in &sections.entities {
+            self.draw_top(entities, None);
+        }
+        for block in &sections.blocks {
+            if let Some(space) = block.layout {
+                self.draw_top(&block.entities, Some(space));
+            }
+        }
+        self.note_hidden();
+        self.drawing
+    }
+
+    fn draw_top(&mut self, entities: &Groups<'a>, layout: Option<Space>) {
+        let mut parts = Parts::new(entities, self.sections);
+        while let Some(part) = parts.next(self.notes) {
+            let marked = if part.is_paper {
+                Space::Paper
+            } else {
+                Space::Model
+            };
+            let setting = Setting {
+                place: Affine::default(),
+                space: layout.unwrap_or(marked),
+                insert: None,
+            };
+            self.draw(&part, &setting);
+        }
+    }
+
+    fn draw(&mut self, part: &Part, setting: &Setting) {
+        match &part.content {
+            Content::Curve(kind, shapes) => self.draw_curve(part, *kind, shapes, setting),
+            Content::Insert(insert) => self.draw_insert(part, insert, setting),
+            Content::Other(name) => self.count_other(name, part.at),
+        }
+    }
+
+    fn draw_curve(&mut self, part: &Part, kind: Kind, shapes: &[Shape], setting: &Setting) {
+        self.memory = self.memory.saturating_add(item_size(shapes));
+        let place = |shape: &Shape| shape.clone().placed(&setting.place);
+        let shapes: Vec<Shape> = match setting.insert {
+            Some(_) => shapes.iter().map(place).collect(),
+            None => shapes.to_vec(),
+        };
+        if !shapes.iter().all(is_finite) {
+            let name = kind.name();
+            self.notes.add_once(
+                part.at,
+                format_args!("{name} skipped: it reaches beyond all numbers"),
+            );
+            return;
+        }
+        let layer = self.layer(part, setting);
+        let around = setting.insert.as_ref();
+        let item = Item {
+            kind,
+            shapes,
+            colour: self.colour(part, &layer, around),
+            name: None,
+            block: around.map(|around| around.block.clone()),
+            space: setting.space,
+            at: part.at,
+            group: vec![self.spelled(layer)],
+        };
+        self.drawing.items.push(item);
+    }
+
+    fn draw_insert(&mut self, part: &Part, insert: &Insert, setting: &Setting) {
+        let sections = self.sections;
+        let Some(block) = sections.blocks.get(insert.block) else {
+            return;
+        };
+        if !self.may_open(part.at, insert.block) {
+            return;
+        }
+        let parts = self.parts_of(insert.block);
+        let layer = self.layer(part, setting);
+        let mut inner = Setting {
+            place: setting.place,
+            space: setting.space,
+            insert: Some(Around {
+                colour: self.colour(part, &layer, setting.insert.as_ref()),
+                layer,
+                block: block.name.clone(),
+            }),
+        };
+        self.open.push(insert.block);
+        let (columns, across) = insert.columns;
+        let (rows, along) = insert.rows;
+        for number in 0..columns.saturating_mul(rows) {
+            if !self.has_room(part.at) {
+                break;
+            }
+            let step = across * (number % columns) as f64 + along * (number / columns) as f64;
+            let mut place = insert.place;
+            place.origin += step;
+            inner.place = setting.place.of(&place);
+            self.draw_block(&parts, &inner);
+        }
+        self.open.pop();
+    }
+
+    fn draw_block(&mut self, parts: &[Part], setting: &Setting) {
+        for part in parts {
+            if !self.has_room(part.at) {
+                return;
+            }
+            self.draw(part, setting);
+        }
+    }
+
+    fn may_open(&mut self, at: u64, block: usize) -> bool {
+        let reason = if self.open.contains(&block) {
+            "the block holds itself"
+        } else if self.open.len() >= DEEPEST {
+            "blocks are nested more than 64 deep"
+        } else {
+            return true;
+        };
+        self.notes
+            .add_once(at, format_args!("INSERT skipped: {reason}"));
+        false
+    }
+
+    /// Count one more drawn by an insert, if there is room.
+    fn has_room(&mut self, at: u64) -> bool {
+        if self.is_full {
+            return false;
+        }
+        self.drawn += 1;
+        self.is_full = self.drawn > MOST || self.memory > self.most_memory;
+        if self.is_full {
+            let remark =
+                "INSERT cut off: inserts draw more than 1 000 000 entities or too much memory";
+            self.notes.add(at, remark);
+        }
+        !self.is_full
+    }
+
+    fn parts_of(&mut self, number: usize) -> Rc<Vec<Part>> {
+        if let Some(parts) = self.parts.get(&number) {
+            return Rc::clone(parts);
+        }
+        let mut found = Vec::new();
+        if let Some(block) = self.sections.blocks.get(number) {
+            let mut parts = Parts::new(&block.entities, self.sections);
+            while let Some(part) = parts.next(self.notes) {
+                self.memory = self.memory.saturating_add(part_size(&part));
+                found.push(part);
+            }
+        }
+        found.shrink_to_fit();
+        let found = Rc::new(found);
+        self.parts.insert(number, Rc::clone(&found));
+        found
+    }
+
+    fn layer(&self, part: &Part, setting: &Setting) -> String {
+        match &setting.insert {
+            Some(around) if part.layer == LAYER_OF_INSERT => around.layer.clone(),
+            _ => part.layer.clone(),
+        }
+    }
+
+    fn colour(&self, part: &Part, layer: &str, around: Option<&Around>) -> Option<[u8; 3]> {
+        match part.paint {
+            Paint::Own(colour) => colour,
+            Paint::Layer => self.sections.layers.find(layer)?.colour,
+            Paint::Block => around?.colour,
+        }
+    }
+
+    /// Spell a layer as the table does.
+    fn spelled(&mut self, name: String) -> String {
+        let Some(layer) = self.sections.layers.find(&name) else {
+            return name;
+        };
+        if layer.is_hidden && !self.hidden.contains(&layer.name) {
+            self.hidden.insert(layer.name.clone());
+        }
+        layer.name.clone()
+    }
+
+    fn count_other(&mut self, name: &str, at: u64) {
+        let others = &mut self.drawing.other;
+        if let Some(other) = self
+            .others
+            .get(name)
+            .and_then(|number| others.get_mut(*number))
+        {
+            other.count = other.count.saturating_add(1);
+            return;
+        }
+        self.others.insert(name.to_owned(), others.len());
+        let kind = name.to_owned();
+        others.push(Other { kind, count: 1, at });
+    }
+
+    fn note_hidden(&mut self) {
+        let names: Vec<&str> = self
+            .hidden
+            .iter()
+            .take(LISTED)
+            .map(String::as_str)
+            .collect();
+        if names.is_empty() {
+            return;
+        }
+        let names = names.join(", ");
+        let more = match self.hidden.len().saturating_sub(LISTED) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        self.notes.add_whole(format!(
+            "layers that are off or frozen in the file: {names}{more}"
+        ));
+    }
+}
+
+fn is_finite(shape: &Shape) -> bool {
+    match shape {
+        Shape::Nurbs(Nurbs { points, .. }) | Shape::Polyline { points, .. } => {
+            points.iter().all(|point| point.is_finite())
+        }
+        Shape::Conic(Conic {
+            centre,
+            x,
+            y,
+            from,
+            to,
+        }) => {
+            [centre, x, y].into_iter().all(|it| it.is_finite())
+                && from.is_finite()
+                && to.is_finite()
+        }
+        Shape::Point(point) => point.is_finite(),
+    }
+}
+
+/// The bytes of an item. The list of items has room for more of them; each string and list has an overhead.
+fn item_size(shapes: &[Shape]) -> usize {
+    size_of::<Item>() * 3 / 2 + 96 + shapes_size(shapes)
+}
+
+fn part_size(part: &Part) -> usize {
+    let content = match &part.content {
+        Content::Curve(_, shapes) => shapes_size(shapes),
+        Content::Insert(_) => 0,
+        Content::Other(name) => name.len(),
+    };
+    size_of::<Part>() + 64 + part.layer.len() + content
+}
+
+fn shapes_size(shapes: &[Shape]) -> usize {
+    let inner = |shape: &Shape| match shape {
+        Shape::Nurbs(nurbs) => size_of_val(&*nurbs.points) + 2 * size_of_val(&*nurbs.knots),
+        Shape::Polyline { points, .. } => size_of::<DVec3>() * points.len(),
+        Shape::Conic(_) | Shape::Point(_) => 0,
+    };
+    size_of_val(shapes) + shapes.iter().map(inner).sum::<usize>() + 16 * shapes.len()
+}

@@ -1,0 +1,134 @@
+//! The rows of the table of formats for CAD and drawing programs.
+
+use super::drawing::{Drawing, Unreadable};
+use super::{brep, curve_json, glif, iges, obj, step, svg, threedm};
+use crate::document::Document;
+use crate::geometry::PolygonKind;
+use crate::io::error::WriteError;
+use crate::io::format::Format;
+use crate::io::loss::LossReport;
+
+/// Writes a drawing of some name.
+type WriteDrawing = fn(&Drawing, &str) -> Result<Vec<u8>, Unreadable>;
+
+const NONE: Format = Format {
+    name: "",
+    extensions: &[],
+    read: None,
+    read_chosen: None,
+    draw: None,
+    write: None,
+    holds_documents: false,
+    exports: &[],
+};
+
+/// STEP, written by the protocol that most programs read.
+pub static STEP: Format = Format {
+    name: "STEP",
+    extensions: &["step", "stp", "p21"],
+    draw: Some(step::read),
+    write: Some(|document, knots, losses| {
+        written(document, knots, losses, |drawing, name| {
+            step::write(drawing, name, step::Protocol::Ap214)
+        })
+    }),
+    ..NONE
+};
+
+/// STEP by the newer protocol.
+pub static STEP_AP242: Format = Format {
+    name: "STEP AP242",
+    extensions: &["ap242"],
+    draw: Some(step::read),
+    write: Some(|document, knots, losses| {
+        written(document, knots, losses, |drawing, name| {
+            step::write(drawing, name, step::Protocol::Ap242)
+        })
+    }),
+    ..NONE
+};
+
+/// IGES.
+pub static IGES: Format = Format {
+    name: "IGES",
+    extensions: &["igs", "iges"],
+    draw: Some(iges::read),
+    write: Some(|document, knots, losses| written(document, knots, losses, iges::write)),
+    ..NONE
+};
+
+/// Rhino's 3DM.
+pub static THREEDM: Format = Format {
+    name: "3DM",
+    extensions: &["3dm"],
+    draw: Some(threedm::read),
+    write: Some(|document, knots, losses| written(document, knots, losses, threedm::write)),
+    ..NONE
+};
+
+/// SVG.
+pub static SVG: Format = Format {
+    name: "SVG",
+    extensions: &["svg"],
+    draw: Some(svg::read),
+    write: Some(|document, _, losses| {
+        written(document, Some(PolygonKind::Bezier), losses, svg::write)
+    }),
+    ..NONE
+};
+
+/// Glyphs of the Unified Font Object.
+pub static GLIF: Format = Format {
+    name: "GLIF",
+    extensions: &["glif"],
+    draw: Some(glif::read),
+    write: Some(|document, _, losses| {
+        written(document, Some(PolygonKind::Bezier), losses, glif::write)
+    }),
+    ..NONE
+};
+
+/// Free-form curves of OBJ.
+pub static OBJ: Format = Format {
+    name: "OBJ",
+    extensions: &["obj"],
+    draw: Some(obj::read),
+    write: Some(|document, knots, losses| written(document, knots, losses, obj::write)),
+    ..NONE
+};
+
+/// OpenCascade's BREP, always in millimetres.
+pub static BREP: Format = Format {
+    name: "BREP",
+    extensions: &["brep", "brp"],
+    draw: Some(brep::read),
+    write: Some(|document, knots, losses| {
+        written(document, knots, losses, |drawing, name| {
+            brep::write(&drawing.in_millimetres(), name)
+        })
+    }),
+    ..NONE
+};
+
+/// Control points, knots and weights in JSON.
+pub static CURVE_JSON: Format = Format {
+    name: "JSON",
+    extensions: &["json"],
+    draw: Some(curve_json::read),
+    write: Some(|document, knots, losses| written(document, knots, losses, curve_json::write)),
+    ..NONE
+};
+
+/// Write a document on the knots of a polygon; without a choice on clamped ones.
+fn written(
+    document: &Document,
+    knots: Option<PolygonKind>,
+    losses: &mut LossReport,
+    write: WriteDrawing,
+) -> Result<Vec<u8>, WriteError> {
+    let format = losses.format;
+    let drawing = Drawing::of(document, knots.unwrap_or(PolygonKind::Clamped), losses)?;
+    let name = drawing.items.first().and_then(|item| item.name.clone());
+    let bytes = write(&drawing, name.as_deref().unwrap_or("curves"));
+    bytes.map_err(|Unreadable { reason, .. }| WriteError::Refused { format, reason })
+}

@@ -1,0 +1,25 @@
+//! Formats of CAD and drawing programs: each reader makes a [`Drawing`](drawing::Drawing) of bytes, of which curves and
+//! references are taken; each writer makes bytes of one.
+
+mod brep;
+mod conic_frame;
+mod curve_json;
+pub mod drawing;
+pub(super) mod dxf;
+pub(super) mod formats;
+mod glif;
+mod iges;
+#[cfg(test)]
+mod mutate;
+mod obj;
+mod pieces;
+mod reading;
+mod remarks;
+mod spending;
+mod spline_part;
+mod splines;
+mod step;
+mod svg;
+mod threedm;
+mod writing;
+mod xml;

@@ -1,0 +1,303 @@
+//! What becomes of a drawing: curves where a float polygon is exact, references elsewhere.
+
+use std::collections::{HashMap, HashSet};
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::drawing::{Affine, Conic, Drawing, Item, Kind, Nurbs as DrawnNurbs, Shape, Space};
+use crate::document::{Colour, Curve, Reference};
+use crate::geometry::expressions::LengthUnit;
+use crate::geometry::references::{
+    AnalyticForm, Nurbs, Placement, PointList, ReferenceCurve, ReferenceError, ReferenceForm,
+    formulas,
+};
+use crate::geometry::{NearestFloat, PolygonKind, counted};
+use crate::io::reading::{Reading, Remark};
+
+/// Axes whose angle or length differs by less than this share are perpendicular, or of one length.
+const SAME: f64 = 1e-12;
+
+/// What a shape becomes.
+enum Made {
+    Curve(NearestFloat),
+    Reference(ReferenceCurve),
+}
+
+impl Drawing {
+    /// Take the curves of their own: those of blocks too, but not layouts for printing and edges of solids.
+    pub fn free(&self) -> impl Iterator<Item = &Item> {
+        self.items.iter().filter(|item| item.space == Space::Model)
+    }
+
+    /// Make curves and references of the free items. Lengths are in the file's unit, or in millimetres where Batten has
+    /// no such unit.
+    pub fn reading(&self) -> Reading {
+        let (unit, factor) = unit_of(self.unit);
+        let mut taken = Taken {
+            reading: Reading {
+                unit,
+                ..Reading::default()
+            },
+            names: Names::default(),
+            points: Vec::new(),
+            factor,
+        };
+        for item in self.free() {
+            taken.take(item);
+        }
+        taken.finish(self)
+    }
+}
+
+impl DrawnNurbs {
+    /// Check the knots and points of a file.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if they are no curve.
+    pub fn checked(&self) -> Result<Nurbs, ReferenceError> {
+        let (knots, points) = (self.knots.clone(), self.points.clone());
+        let curve = Nurbs::new(
+            self.degree,
+            knots,
+            points,
+            self.weights.clone(),
+            self.periodic,
+        );
+        Ok(curve?)
+    }
+}
+
+/// The unit of a file with so many millimetres to its unit, and the factor to it.
+fn unit_of(millimetres: Option<f64>) -> (Option<LengthUnit>, f64) {
+    let Some(millimetres) = millimetres else {
+        return (None, 1.0);
+    };
+    let found = LengthUnit::ALL
+        .into_iter()
+        .find(|unit| unit.millimetres() == millimetres);
+    match found {
+        Some(unit) => (Some(unit), 1.0),
+        None => (Some(LengthUnit::Millimetre), millimetres),
+    }
+}
+
+/// What was taken so far.
+struct Taken {
+    reading: Reading,
+    names: Names,
+    /// The single points, which make one reference.
+    points: Vec<DVec3>,
+    factor: f64,
+}
+
+impl Taken {
+    fn take(&mut self, item: &Item) {
+        let shapes = item.shapes.len();
+        for (index, shape) in item.shapes.iter().enumerate() {
+            if let Shape::Point(point) = shape {
+                self.points.push(self.factor * *point);
+                continue;
+            }
+            let name = match &item.name {
+                Some(name) if shapes > 1 => self.names.free(&format!("{name} {}", index + 1)),
+                Some(name) => self.names.free(name),
+                None => self.names.of_kind(item.kind),
+            };
+            match made(scaled(shape, self.factor)) {
+                Ok(Made::Curve(near)) => self.add_curve(name, near, item.colour),
+                Ok(Made::Reference(curve)) => {
+                    let mut reference = Reference::new(name, curve);
+                    reference.colour = item.colour.map(Colour);
+                    self.reading.references.push(reference);
+                }
+                Err(error) => self.tell(format!("{name} (at {}) is left out: {error}", item.at)),
+            }
+        }
+    }
+
+    fn add_curve(&mut self, name: String, near: NearestFloat, colour: Option<[u8; 3]>) {
+        let number = self.reading.curves.len() + 1;
+        if !near.is_close {
+            self.reading.remarks.add(Remark::CurveOff {
+                curve: (number, name.clone()),
+                kind: PolygonKind::Clamped,
+                by: near.deviation,
+            });
+        }
+        let mut curve = Curve::new(name, near.polygon);
+        curve.colour = colour.map(Colour);
+        self.reading.curves.push(curve);
+    }
+
+    fn tell(&mut self, text: String) {
+        self.reading.remarks.add(Remark::Drawn(text));
+    }
+
+    /// Add the points, and say what was not taken.
+    fn finish(mut self, drawing: &Drawing) -> Reading {
+        let points = std::mem::take(&mut self.points);
+        match points.len() {
+            0 => {}
+            1 => self.tell("a single point is left out: a reference has two or more".to_owned()),
+            _ => self.add_points(points),
+        }
+        for (space, one, many) in [
+            (
+                Space::Paper,
+                "item of a layout for printing",
+                "items of layouts for printing",
+            ),
+            (
+                Space::Edge,
+                "edge of a solid or surface",
+                "edges of solids and surfaces",
+            ),
+        ] {
+            let count = drawing
+                .items
+                .iter()
+                .filter(|item| item.space == space)
+                .count();
+            if count > 0 {
+                self.tell(format!("{} left out", counted(count, one, many)));
+            }
+        }
+        let others = drawing.other.iter();
+        let others: Vec<String> = others
+            .map(|it| format!("{} {}", it.count, it.kind))
+            .collect();
+        if !others.is_empty() {
+            self.tell(format!("no curves, left out: {}", others.join(", ")));
+        }
+        if self.factor != 1.0 {
+            let told = format!(
+                "lengths are read in mm: the file's unit is {} mm",
+                self.factor
+            );
+            self.tell(told);
+        }
+        for remark in &drawing.remarks {
+            self.tell(remark.clone());
+        }
+        self.reading
+    }
+
+    fn add_points(&mut self, points: Vec<DVec3>) {
+        let name = self.names.free("points");
+        let list = PointList::new(points);
+        let curve = list.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
+        match curve {
+            Ok(curve) => self.reading.references.push(Reference::new(name, curve)),
+            Err(error) => self.tell(format!("the points are left out: {error}")),
+        }
+    }
+}
+
+/// Names that differ.
+#[derive(Default)]
+struct Names {
+    taken: HashSet<String>,
+    /// How many items of each kind have no name of their own.
+    counts: HashMap<Kind, usize>,
+}
+
+impl Names {
+    fn free(&mut self, name: &str) -> String {
+        let mut free = name.to_owned();
+        let mut number = 2;
+        while !self.taken.insert(free.clone()) {
+            free = format!("{name} {number}");
+            number += 1;
+        }
+        free
+    }
+
+    fn of_kind(&mut self, kind: Kind) -> String {
+        let count = self.counts.entry(kind).or_default();
+        *count += 1;
+        let name = format!("{} {count}", kind.name());
+        self.free(&name)
+    }
+}
+
+fn scaled(shape: &Shape, factor: f64) -> Shape {
+    match factor == 1.0 {
+        true => shape.clone(),
+        false => shape.clone().placed(&Affine::scaling(factor)),
+    }
+}
+
+fn made(shape: Shape) -> Result<Made, ReferenceError> {
+    let reference = match shape {
+        Shape::Nurbs(drawn) => {
+            let nurbs = drawn.checked()?;
+            if let Some(near) = nurbs.float_polygon() {
+                return Ok(Made::Curve(near));
+            }
+            ReferenceCurve::of(ReferenceForm::Nurbs(nurbs))?
+        }
+        Shape::Conic(conic) => ellipse(&conic)?,
+        Shape::Polyline { mut points, closed } => {
+            let first = points.first().copied();
+            points.extend(first.filter(|first| closed && points.last() != Some(first)));
+            ReferenceCurve::of(ReferenceForm::Points(PointList::new(points)?))?
+        }
+        Shape::Point(point) => {
+            let list = PointList::new(vec![point])?;
+            ReferenceCurve::of(ReferenceForm::Points(list))?
+        }
+    };
+    Ok(Made::Reference(reference))
+}
+
+/// The circle or ellipse over its part, placed.
+fn ellipse(conic: &Conic) -> Result<ReferenceCurve, ReferenceError> {
+    let Conic {
+        centre,
+        x,
+        y,
+        from,
+        to,
+    } = conic.with_axes();
+    let [a, b] = [x, y].map(DVec3::length);
+    let form = match (a - b).abs() <= SAME * a {
+        true => AnalyticForm::new(&formulas::CIRCLE, vec![a])?,
+        false => AnalyticForm::new(&formulas::ELLIPSE, vec![a, b])?,
+    };
+    let placement = Placement::new(rotation(x / a, y / b), 1.0, centre)?;
+    ReferenceCurve::new(ReferenceForm::Analytic(form), [from, to], placement)
+}
+
+/// The rotation that leads the axes x and y to two perpendicular directions. In the plane it turns about z alone, or
+/// turns the plane over, to the bit.
+fn rotation(x: DVec3, y: DVec3) -> DQuat {
+    let z = x.cross(y);
+    if x.z == 0.0 && y.z == 0.0 {
+        let half = 0.5 * x.y.atan2(x.x);
+        return match z.z > 0.0 {
+            true => DQuat::from_xyzw(0.0, 0.0, half.sin(), half.cos()),
+            false => DQuat::from_xyzw(half.cos(), half.sin(), 0.0, 0.0),
+        };
+    }
+    DQuat::from_mat3(&DMat3::from_cols(x, z.cross(x), z)).normalize()
+}
+
+impl Conic {
+    /// The same arc by perpendicular half-axes.
+    fn with_axes(&self) -> Self {
+        let [x, y] = [self.x, self.y];
+        let (across, lengths) = (x.dot(y), [x.length(), y.length()]);
+        if across.abs() <= SAME * lengths[0] * lengths[1] {
+            return self.clone();
+        }
+        let turn = 0.5 * (2.0 * across).atan2(x.length_squared() - y.length_squared());
+        let (sin, cos) = turn.sin_cos();
+        Self {
+            x: cos * x + sin * y,
+            y: cos * y - sin * x,
+            from: self.from - turn,
+            to: self.to - turn,
+            centre: self.centre,
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Limits of memory and work, against files that insert subfigures in subfigures without end.
+
+use crate::io::exchange::drawing::{Item, Shape};
+
+/// The most items of a file.
+const ITEMS: usize = 1_000_000;
+
+/// What reading has cost, and the limits.
+pub(super) struct Spending {
+    items: usize,
+    /// Estimated bytes of the items.
+    memory: usize,
+    memory_limit: usize,
+    /// Bytes of parameters read.
+    work: u64,
+    work_limit: u64,
+}
+
+impl Spending {
+    /// Give the limits for a file of a length.
+    ///
+    /// An item needs at most some eight bytes for a byte of its file, and each parameter line is read once,
+    /// but for subfigures.
+    pub fn of_file(length: usize) -> Self {
+        Self {
+            items: 0,
+            memory: 0,
+            memory_limit: length.saturating_mul(10).max(96 << 20),
+            work: 0,
+            work_limit: u64::try_from(length)
+                .unwrap_or(u64::MAX)
+                .saturating_mul(8)
+                .max(192 << 20),
+        }
+    }
+
+    /// Say whether a limit is reached.
+    pub fn is_over(&self) -> bool {
+        self.items >= ITEMS || self.memory >= self.memory_limit || self.work >= self.work_limit
+    }
+
+    /// Name the limit that was reached.
+    pub fn reason(&self) -> String {
+        let limit = if self.work >= self.work_limit {
+            "time"
+        } else {
+            "memory"
+        };
+        if self.items >= ITEMS {
+            format!("{ITEMS} items are reached")
+        } else {
+            format!("the limit of {limit} is reached after {} items", self.items)
+        }
+    }
+
+    /// Count bytes of parameters.
+    pub fn work(&mut self, bytes: u64) {
+        self.work = self.work.saturating_add(bytes);
+    }
+
+    /// Count a shape of an item to come.
+    pub fn keep_shape(&mut self, shape: &Shape) {
+        self.memory = self.memory.saturating_add(shape_size(shape));
+    }
+
+    /// Count an item without its shapes; `false` if it is beyond the limits.
+    pub fn keep(&mut self, item: &Item) -> bool {
+        let texts = item.group.iter().chain(&item.name).chain(&item.block);
+        let texts = texts.map(|text| text.capacity().saturating_add(size_of::<String>()));
+        let size = texts.fold(size_of::<Item>(), usize::saturating_add);
+        if self.is_over() {
+            return false;
+        }
+        self.memory = self.memory.saturating_add(size);
+        self.items = self.items.saturating_add(1);
+        true
+    }
+}
+
+fn shape_size(shape: &Shape) -> usize {
+    let numbers = match shape {
+        Shape::Nurbs(nurbs) => {
+            let weights = nurbs.weights.as_ref().map_or(0, Vec::len);
+            let points = nurbs.points.len().saturating_mul(3);
+            points
+                .saturating_add(nurbs.knots.len())
+                .saturating_add(weights)
+        }
+        Shape::Polyline { points, .. } => points.len().saturating_mul(3),
+        Shape::Conic(_) | Shape::Point(_) => 0,
+    };
+    numbers
+        .saturating_mul(size_of::<f64>())
+        .saturating_add(size_of::<Shape>())
+}

@@ -1,0 +1,465 @@
+//! The tree of a drawing: groups, layers, nested drawings, and elements that are used again.
+
+use std::collections::HashMap;
+
+use roxmltree::{Document, Node, NodeId};
+
+use super::super::remarks::{Remarks, count};
+use super::super::xml::Source;
+use super::lengths::{Along, Viewport, aspect_ratio, length, page, view_box};
+use super::maker::Maker;
+use super::names::{group_name, name};
+use super::namespaces::{SVG, XLINK};
+use super::style::{Sheet, Style};
+use super::transforms::{fit, matrix, transform};
+use super::{paths, shapes};
+use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Space, Unreadable};
+
+/// The most groups and uses inside one another. Each is a recursion, and drawings have about ten.
+const DEPTH_LIMIT: usize = 64;
+/// What all files may cost: one for an element and for each four bytes of attributes, which hold at least a
+/// point.
+const COST: usize = 2_000_000;
+
+/// The memory for the tree and the items of a file of up to 11 MB; larger files get twenty times their size.
+const MEMORY: usize = 220 << 20;
+
+/// Read a drawing.
+pub(super) fn read(source: &Source, size: usize) -> Result<Drawing, Unreadable> {
+    let document = source.document()?;
+    let root = document.root_element();
+    if !is_svg(root) || root.tag_name().name() != "svg" {
+        return Err(Unreadable {
+            at: Some(source.line_of(root)),
+            reason: format!(
+                "this is no SVG file: its root is <{}>",
+                root.tag_name().name()
+            ),
+        });
+    }
+    let page = page(root);
+    let mut walk = Walk::new(source, &document, size);
+    walk.drawing.unit = page.unit;
+    source
+        .remarks
+        .iter()
+        .for_each(|it| walk.remarks.add(it.clone()));
+    page.remark.into_iter().for_each(|it| walk.remarks.add(it));
+    let frame = Frame {
+        place: page.place,
+        group: Vec::new(),
+        block: None,
+        style: Style::default().of(root, &walk.sheet),
+        viewport: page.viewport,
+        depth: 0,
+    };
+    walk.children(root, &frame);
+    Ok(walk.finish())
+}
+
+/// What an element inherits from those around it.
+#[derive(Clone)]
+struct Frame {
+    place: Affine,
+    group: Vec<String>,
+    block: Option<String>,
+    style: Style,
+    viewport: Viewport,
+    depth: usize,
+}
+
+/// The walk over all elements that are drawn.
+struct Walk<'d> {
+    source: &'d Source,
+    document: &'d Document<'d>,
+    ids: HashMap<&'d str, NodeId>,
+    sheet: Sheet,
+    drawing: Drawing,
+    remarks: Remarks,
+    /// The elements that are being used, outermost first.
+    used: Vec<NodeId>,
+    /// What may still be spent.
+    budget: usize,
+    /// How many bytes items may still take.
+    memory: usize,
+    /// Whether the budget or the number of items is used up.
+    full: bool,
+    /// How many elements are hidden, and the first one's line.
+    hidden: (usize, u64),
+    /// The same for subpaths of one point.
+    empty: (usize, u64),
+}
+
+impl<'d> Walk<'d> {
+    fn new(source: &'d Source, document: &'d Document<'d>, size: usize) -> Self {
+        let mut ids = HashMap::new();
+        let mut sheet = Sheet::default();
+        let mut drawing = Drawing::default();
+        for node in document.descendants().filter(Node::is_element) {
+            if let Some(id) = node.attribute("id") {
+                ids.entry(id).or_insert(node.id());
+            }
+            match node.tag_name().name() {
+                "style" if is_svg(node) => node
+                    .children()
+                    .filter_map(|it| it.text())
+                    .for_each(|it| sheet.add(it)),
+                // What they hide or add is told by their count alone.
+                name @ ("clipPath" | "mask" | "pattern" | "marker") if is_svg(node) => {
+                    count(&mut drawing, name, source.line_of(node));
+                }
+                _ => {}
+            }
+        }
+        Self {
+            source,
+            document,
+            ids,
+            sheet,
+            drawing,
+            remarks: Remarks::default(),
+            used: Vec::new(),
+            budget: COST + size / 4,
+            memory: MEMORY
+                .max(size.saturating_mul(20))
+                .saturating_sub(source.tree_size()),
+            full: false,
+            hidden: (0, 0),
+            empty: (0, 0),
+        }
+    }
+
+    fn finish(mut self) -> Drawing {
+        let (count, line) = self.hidden;
+        if count > 0 {
+            self.remarks.add(format!(
+                "line {line}: {count} hidden elements are skipped, of which this is the first"
+            ));
+        }
+        let (count, line) = self.empty;
+        if count > 0 {
+            self.remarks.add(format!(
+                "line {line}: {count} subpaths are skipped because they have one point alone, of which \
+                 this is the first"
+            ));
+        }
+        self.drawing.remarks = self.remarks.finish();
+        self.drawing
+    }
+
+    fn children(&mut self, node: Node<'d, 'd>, frame: &Frame) {
+        for child in node.children().filter(Node::is_element) {
+            if self.full {
+                return;
+            }
+            self.element(child, frame);
+        }
+    }
+
+    fn element(&mut self, node: Node<'d, 'd>, outer: &Frame) {
+        let name = node.tag_name().name();
+        if !is_svg(node) || is_definition(name) || !self.spend(node) {
+            return;
+        }
+        let style = outer.style.of(node, &self.sheet);
+        if style.hidden {
+            self.count_hidden(node);
+            return;
+        }
+        match name {
+            "g" | "a" | "switch" | "svg" | "use" => {
+                if let Some(frame) = self.enter(node, outer, style) {
+                    self.container(node, &frame);
+                }
+            }
+            "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon" => {
+                if style.is_invisible() {
+                    self.count_hidden(node);
+                } else {
+                    self.shape(node, outer, style);
+                }
+            }
+            _ => count(&mut self.drawing, name, self.source.line_of(node)),
+        }
+    }
+
+    /// Pay for an element.
+    fn spend(&mut self, node: Node) -> bool {
+        let attributes: usize = node.attributes().map(|it| it.value().len()).sum();
+        match self.budget.checked_sub(1 + attributes / 4) {
+            Some(rest) if !self.full => {
+                self.budget = rest;
+                true
+            }
+            _ => {
+                self.stop(node);
+                false
+            }
+        }
+    }
+
+    fn stop(&mut self, node: Node) {
+        if !self.full {
+            self.full = true;
+            self.remark(
+                node,
+                "the drawing is too large, or uses elements again too often: its rest is missing",
+            );
+        }
+    }
+
+    fn count_hidden(&mut self, node: Node) {
+        let first = if self.hidden.0 == 0 {
+            self.source.line_of(node)
+        } else {
+            self.hidden.1
+        };
+        self.hidden = (self.hidden.0 + 1, first);
+    }
+
+    /// Make the frame for the children of an element.
+    fn enter(&mut self, node: Node, outer: &Frame, style: Style) -> Option<Frame> {
+        if outer.depth >= DEPTH_LIMIT {
+            self.remark(node, "it is skipped because it is nested more than 64 deep");
+            return None;
+        }
+        let mut group = outer.group.clone();
+        if node.tag_name().name() == "g" {
+            group.extend(group_name(node));
+        }
+        Some(Frame {
+            place: self.placed(node, outer),
+            group,
+            block: outer.block.clone(),
+            style,
+            viewport: outer.viewport,
+            depth: outer.depth + 1,
+        })
+    }
+
+    fn placed(&mut self, node: Node, outer: &Frame) -> Affine {
+        let Some(text) = node.attribute("transform") else {
+            return outer.place;
+        };
+        let (place, error) = transform(text);
+        if let Some(error) = error {
+            self.remark(
+                node,
+                &format!("its transform is damaged and read up to the damage: {error}"),
+            );
+        }
+        outer.place.of(&place)
+    }
+
+    fn container(&mut self, node: Node<'d, 'd>, frame: &Frame) {
+        match node.tag_name().name() {
+            "svg" => self.nested(node, frame, [None, None]),
+            "use" => self.reuse(node, frame),
+            "switch" => {
+                let fits = |it: &Node| {
+                    is_svg(*it)
+                        && it.tag_name().name() != "foreignObject"
+                        && !it.has_attribute("requiredExtensions")
+                };
+                if let Some(child) = node.children().find(fits) {
+                    self.element(child, frame);
+                }
+            }
+            _ => self.children(node, frame),
+        }
+    }
+
+    /// Walk over an `svg` or a `symbol`, of a size that may be given by its `use`.
+    fn nested(&mut self, node: Node<'d, 'd>, frame: &Frame, size: [Option<f64>; 2]) {
+        let mut inner = frame.clone();
+        let get = |name, along| length(node, name, along, frame.viewport);
+        let width = size[0].or_else(|| get("width", Along::Width));
+        let height = size[1].or_else(|| get("height", Along::Height));
+        inner.viewport = Viewport {
+            width: width.unwrap_or(frame.viewport.width),
+            height: height.unwrap_or(frame.viewport.height),
+        };
+        if !(inner.viewport.width > 0.0 && inner.viewport.height > 0.0) {
+            if width.is_some() || height.is_some() {
+                self.remark(
+                    node,
+                    "it is skipped because its width or height is not above 0",
+                );
+                return;
+            }
+        } else if let Some(view) = view_box(node) {
+            let size = (inner.viewport.width, inner.viewport.height);
+            inner.place =
+                inner
+                    .place
+                    .of(&corner(node, frame))
+                    .of(&fit(view, size, aspect_ratio(node)));
+            inner.viewport = Viewport {
+                width: view.w,
+                height: view.h,
+            };
+            self.children(node, &inner);
+            return;
+        }
+        inner.place = inner.place.of(&corner(node, frame));
+        self.children(node, &inner);
+    }
+
+    /// Walk over the element that a `use` refers to.
+    fn reuse(&mut self, node: Node<'d, 'd>, frame: &Frame) {
+        let reference = node
+            .attribute("href")
+            .or_else(|| node.attribute((XLINK, "href")));
+        let id = reference.and_then(|it| it.trim().strip_prefix('#'));
+        let target = id.and_then(|id| self.document.get_node(*self.ids.get(id)?));
+        let (Some(id), Some(target)) = (id, target) else {
+            let what = reference.unwrap_or("nothing");
+            self.remark(
+                node,
+                &format!("it is skipped because it refers to {what}, which this file has not"),
+            );
+            return;
+        };
+        if self.used.contains(&target.id()) {
+            self.remark(node, &format!("it is skipped because #{id} uses itself"));
+            return;
+        }
+        let mut inner = frame.clone();
+        inner.place = inner.place.of(&corner(node, frame));
+        inner.block = Some(id.to_owned());
+        self.used.push(target.id());
+        self.target(node, target, inner);
+        self.used.pop();
+    }
+
+    fn target(&mut self, node: Node<'d, 'd>, target: Node<'d, 'd>, mut inner: Frame) {
+        let name = target.tag_name().name();
+        if name == "symbol" || name == "svg" {
+            if !self.spend(target) {
+                return;
+            }
+            inner.place = self.placed(target, &inner);
+            inner.style = inner.style.of(target, &self.sheet);
+            if inner.style.hidden {
+                self.count_hidden(target);
+                return;
+            }
+            let size = [("width", Along::Width), ("height", Along::Height)]
+                .map(|(name, along)| length(node, name, along, inner.viewport));
+            self.nested(target, &inner, size);
+        } else {
+            self.element(target, &inner);
+        }
+    }
+
+    fn shape(&mut self, node: Node<'d, 'd>, outer: &Frame, style: Style) {
+        let item = Item {
+            kind: Kind::Path,
+            shapes: Vec::new(),
+            group: outer.group.clone(),
+            name: name(node).map(str::to_owned),
+            block: outer.block.clone(),
+            colour: style.shown(),
+            space: Space::Model,
+            at: self.source.line_of(node),
+        };
+        let items = std::mem::take(&mut self.drawing.items);
+        let mut maker = Maker::new(self.placed(node, outer), item, items, self.memory);
+        if node.tag_name().name() == "path" {
+            let data = node.attribute("d").unwrap_or_default();
+            let outcome = paths::read(data, &mut |shapes| maker.take(shapes));
+            self.report_path(node, &outcome);
+        } else {
+            match shapes::shape(node, outer.viewport) {
+                Ok(shapes) => {
+                    maker.take(shapes);
+                }
+                Err(reason) => self.remark(node, &format!("it is skipped because {reason}")),
+            }
+            if shapes::has_damaged_points(node) {
+                self.remark(node, "its points are damaged and read up to the damage");
+            }
+        }
+        if maker.infinite > 0 {
+            self.remark(
+                node,
+                "it is skipped because its coordinates are beyond all numbers",
+            );
+        }
+        let full = maker.is_full();
+        self.memory = maker.memory;
+        self.drawing.items = maker.items;
+        if full {
+            self.stop(node);
+        }
+    }
+
+    fn report_path(&mut self, node: Node, outcome: &paths::Outcome) {
+        if let Some(error) = &outcome.error {
+            self.remark(
+                node,
+                &format!("its data is damaged and read up to the damage: {error}"),
+            );
+        }
+        if outcome.empty > 0 {
+            let first = if self.empty.0 == 0 {
+                self.source.line_of(node)
+            } else {
+                self.empty.1
+            };
+            self.empty = (self.empty.0 + outcome.empty, first);
+        }
+    }
+
+    fn remark(&mut self, node: Node, text: &str) {
+        let line = self.source.line_of(node);
+        let element = node.tag_name().name();
+        let name = name(node).map(|it| format!(" “{it}”")).unwrap_or_default();
+        self.remarks
+            .add(format!("line {line}: <{element}>{name}: {text}"));
+    }
+}
+
+fn is_svg(node: Node) -> bool {
+    node.is_element() && node.tag_name().namespace().is_none_or(|it| it == SVG)
+}
+
+/// Whether an element is drawn only where another one refers to it, or not at all.
+fn is_definition(name: &str) -> bool {
+    matches!(
+        name,
+        "defs"
+            | "symbol"
+            | "clipPath"
+            | "mask"
+            | "pattern"
+            | "marker"
+            | "linearGradient"
+            | "radialGradient"
+            | "filter"
+            | "title"
+            | "desc"
+            | "metadata"
+            | "style"
+            | "script"
+            | "view"
+            | "font"
+            | "font-face"
+            | "cursor"
+            | "color-profile"
+            | "animate"
+            | "animateTransform"
+            | "animateMotion"
+            | "set"
+    )
+}
+
+/// The corner of an `svg` or the shift of a `use`.
+fn corner(node: Node, frame: &Frame) -> Affine {
+    if node.tag_name().name() == "symbol" {
+        return Affine::default();
+    }
+    let x = length(node, "x", Along::Width, frame.viewport).unwrap_or_default();
+    let y = length(node, "y", Along::Height, frame.viewport).unwrap_or_default();
+    matrix([1.0, 0.0, 0.0, 1.0, x, y])
+}

@@ -1,0 +1,82 @@
+//! The items of an element.
+
+use super::super::pieces::is_finite;
+use crate::io::exchange::drawing::{Affine, Item, Shape};
+
+/// The most items. Only elements that are used again and again reach it.
+const ITEM_LIMIT: usize = 1_000_000;
+
+/// Makes the items of one element.
+pub(super) struct Maker {
+    place: Affine,
+    /// The item without its shapes.
+    item: Item,
+    /// All items so far.
+    pub(super) items: Vec<Item>,
+    /// How many were beyond all numbers.
+    pub(super) infinite: usize,
+    /// How many bytes items may still take.
+    pub(super) memory: usize,
+}
+
+impl Maker {
+    /// Make items like one without shapes, behind other items.
+    pub(super) fn new(place: Affine, item: Item, items: Vec<Item>, memory: usize) -> Self {
+        Self {
+            place,
+            item,
+            items,
+            infinite: 0,
+            memory,
+        }
+    }
+
+    /// Place the shapes of an item; return whether there is room for another.
+    pub(super) fn take(&mut self, shapes: Vec<Shape>) -> bool {
+        let shapes = if self.place == Affine::default() {
+            shapes
+        } else {
+            shapes
+                .into_iter()
+                .map(|it| it.placed(&self.place))
+                .collect()
+        };
+        if shapes.iter().all(is_finite) {
+            let item = Item {
+                shapes,
+                ..self.item.clone()
+            };
+            self.memory = self.memory.saturating_sub(size(&item));
+            self.items.push(item);
+        } else {
+            self.infinite += 1;
+        }
+        !self.is_full()
+    }
+
+    /// Tell whether there is no room for another item.
+    pub(super) fn is_full(&self) -> bool {
+        self.memory == 0 || self.items.len() >= ITEM_LIMIT
+    }
+}
+
+/// Get about how many bytes an item takes.
+fn size(item: &Item) -> usize {
+    /// What an allocation costs beside its contents.
+    const ALLOCATION: usize = 16;
+    let texts = item.group.iter().chain(&item.name).chain(&item.block);
+    let texts: usize = texts
+        .map(|it| it.len().max(ALLOCATION) + ALLOCATION + size_of::<String>())
+        .sum();
+    let shapes = item.shapes.iter().map(|shape| {
+        let inner = match shape {
+            Shape::Nurbs(nurbs) => {
+                size_of_val(nurbs.points.as_slice()) + size_of_val(nurbs.knots.as_slice())
+            }
+            Shape::Polyline { points, .. } => size_of_val(points.as_slice()),
+            Shape::Conic(_) | Shape::Point(_) => 0,
+        };
+        size_of::<Shape>() + inner + 2 * ALLOCATION
+    });
+    size_of::<Item>() + ALLOCATION + texts + shapes.sum::<usize>()
+}

@@ -1,0 +1,154 @@
+//! What a document becomes in a format of another program.
+
+use super::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
+use crate::document::{Curve, Document};
+use crate::geometry::PolygonKind;
+use crate::geometry::references::{ReferenceCurve, ReferenceForm};
+use crate::io::error::WriteError;
+use crate::io::loss::{Loss, LossReport};
+use crate::io::polygon::FilePolygon;
+
+impl Drawing {
+    /// Take curves with the knots of one of their polygons, and references that formats of other programs can hold.
+    ///
+    /// # Errors
+    /// [`WriteError::NoCurves`].
+    pub(super) fn of(
+        document: &Document,
+        knots: PolygonKind,
+        losses: &mut LossReport,
+    ) -> Result<Self, WriteError> {
+        let mut drawing = Self {
+            unit: document.unit().map(|unit| unit.millimetres()),
+            ..Self::default()
+        };
+        for (_, curve) in document.curves() {
+            report(curve, knots, losses);
+            drawing.items.push(Item {
+                colour: curve.colour.map(|colour| colour.0),
+                ..named(&curve.name, Kind::Spline, spline(curve, knots))
+            });
+        }
+        for (_, reference) in document.references() {
+            match shape(&reference.curve) {
+                Some((kind, shape)) => drawing.items.push(Item {
+                    colour: reference.colour.map(|colour| colour.0),
+                    ..named(&reference.name, kind, shape)
+                }),
+                None => losses.add_reference(reference),
+            }
+        }
+        match drawing.items.is_empty() {
+            true => Err(WriteError::NoCurves {
+                format: losses.format,
+            }),
+            false => Ok(drawing),
+        }
+    }
+}
+
+fn named(name: &str, kind: Kind, shape: Shape) -> Item {
+    Item {
+        kind,
+        shapes: vec![shape],
+        group: Vec::new(),
+        name: Some(name.to_owned()),
+        block: None,
+        colour: None,
+        space: Space::Model,
+        at: 0,
+    }
+}
+
+fn report(curve: &Curve, knots: PolygonKind, losses: &mut LossReport) {
+    losses.add_attributes(curve);
+    losses.losses.retain(|(_, loss)| *loss != Loss::Colour);
+    losses.add_if(!curve.visible, curve, Loss::Hidden);
+    losses.add_if(curve.locked, curve, Loss::Locked);
+    let written = FilePolygon::of(&curve.polygon, knots);
+    losses.extend(curve, written.losses(&curve.polygon));
+}
+
+fn spline(curve: &Curve, kind: PolygonKind) -> Shape {
+    let FilePolygon {
+        degree,
+        mut vertices,
+        mut weights,
+        periodic,
+        ..
+    } = FilePolygon::of(&curve.polygon, kind);
+    if periodic {
+        // The knots go round: the first vertices come again.
+        vertices.extend_from_within(..degree);
+        if let Some(weights) = &mut weights {
+            weights.extend_from_within(..degree);
+        }
+    }
+    let count = vertices.len();
+    let place = |knot: usize| -> f64 {
+        let index = knot as f64 - degree as f64;
+        match kind {
+            PolygonKind::Float => index,
+            PolygonKind::Clamped => index.clamp(0.0, (count - degree) as f64),
+            PolygonKind::Bezier => {
+                let segments = ((count - 1) / degree) as f64;
+                ((knot as f64 - 1.0) / degree as f64)
+                    .floor()
+                    .clamp(0.0, segments)
+            }
+        }
+    };
+    Shape::Nurbs(Nurbs {
+        degree,
+        knots: (0..=count + degree).map(place).collect(),
+        points: vertices,
+        weights,
+        periodic,
+    })
+}
+
+/// A reference as other programs know it; `None` for formulas and spirals.
+fn shape(curve: &ReferenceCurve) -> Option<(Kind, Shape)> {
+    let placement = curve.placement();
+    match curve.form() {
+        ReferenceForm::Points(list) => {
+            let points = list.points().iter();
+            let points = points.map(|point| placement.point(*point)).collect();
+            let closed = false;
+            Some((Kind::Polyline, Shape::Polyline { points, closed }))
+        }
+        ReferenceForm::Nurbs(nurbs) if curve.interval() == nurbs.interval() => {
+            let points = nurbs.points().iter();
+            let drawn = Nurbs {
+                degree: nurbs.degree(),
+                knots: nurbs.knots().to_vec(),
+                points: points.map(|point| placement.point(*point)).collect(),
+                weights: nurbs.weights().map(<[f64]>::to_vec),
+                periodic: nurbs.is_periodic(),
+            };
+            Some((Kind::Spline, Shape::Nurbs(drawn)))
+        }
+        ReferenceForm::Analytic(form) => {
+            let [a, b] = match (form.kind().name, form.values()) {
+                ("circle", [radius]) => [*radius; 2],
+                ("ellipse", [a, b]) => [*a, *b],
+                _ => return None,
+            };
+            let [from, to] = curve.interval();
+            let conic = Conic {
+                centre: placement.translation(),
+                x: a * placement.vector(glam::DVec3::X),
+                y: b * placement.vector(glam::DVec3::Y),
+                from,
+                to,
+            };
+            let kind = match conic.is_whole() {
+                true if a == b => Kind::Circle,
+                true => Kind::Ellipse,
+                false => Kind::Arc,
+            };
+            Some((kind, Shape::Conic(conic)))
+        }
+        _ => None,
+    }
+}
