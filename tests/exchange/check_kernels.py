@@ -161,7 +161,9 @@ def problems_back(batten, path, inspected, exact):
         if curve["periodic"] != given["periodic"]:
             yield f"curve {number} is {'periodic' if curve['periodic'] else 'open'} when read back"
             continue
-        expected = curve_points(given)
+        # BREP is always in millimetres.
+        factor = MILLIMETRES[inspected["unit"]] if path.suffix == ".brep" else 1.0
+        expected = factor * curve_points(given)
         error = np.abs(curve_points(curve) - expected).max() / np.ptp(expected, axis=0).max()
         if not error <= BACK:
             yield f"curve {number} is off by {error:.2e} of its size when read back"
@@ -182,7 +184,7 @@ def main(batten, folder):
                 found += [f"{extension}: {it}" for it in problems_back(batten, path, inspected, False)]
             except ValueError as error:
                 found.append(f"{extension}: {error}")
-        for extension in ("step", "igs", "3dm", "json"):
+        for extension in ("step", "igs", "3dm", "json", "obj"):
             path = project.with_name(f"{project.stem}-float.{extension}")
             try:
                 run(batten, "convert", project, path, "--polygon", "float")
