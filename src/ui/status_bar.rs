@@ -16,7 +16,7 @@ use crate::geometry::expressions::LengthUnit;
 pub const HEIGHT: f32 = 28.0;
 
 /// The width that is kept for the hint.
-const HINT: f32 = 120.0;
+const HINT: f32 = 100.0;
 
 /// The space between cells.
 const GAP: f32 = 4.0 * STEP;
