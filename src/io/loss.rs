@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::document::{Curve, Document, Reference, quoted};
-use crate::geometry::{End, PolygonKind, rounded_up};
+use crate::geometry::{End, PolygonKind, counted, rounded_up};
 
 /// Hold the bytes of a file to write, and their losses.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +64,13 @@ pub enum Loss {
     PolygonWeights {
         /// The polygon.
         kind: PolygonKind,
+    },
+    /// The curve itself: it is written as a chain of cubic Béziers.
+    Cubics {
+        /// Their number.
+        count: usize,
+        /// How far the chain is off, measured.
+        off: f64,
     },
     /// Digits: the float vertices that can be had back from the written polygon are off.
     Digits {
@@ -179,6 +186,10 @@ impl fmt::Display for LossReport {
                 ),
                 Loss::NoWayBack { kind } => {
                     format!("the {kind} polygon written cannot be converted back to a float polygon")
+                }
+                Loss::Cubics { count, off } => {
+                    let cubics = counted(*count, "cubic Bézier", "cubic Béziers");
+                    format!("written as {cubics}, up to {} off", rounded_up(*off))
                 }
                 Loss::Periodic => {
                     "written as an open curve that ends where it begins"

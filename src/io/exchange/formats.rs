@@ -1,11 +1,12 @@
 //! The rows of the table of formats for CAD and drawing programs.
 
 use super::drawing::{Drawing, Unreadable};
+use super::writing::Written;
 use super::{brep, curve_json, glif, iges, obj, step, svg, threedm};
 use crate::document::Document;
 use crate::geometry::PolygonKind;
 use crate::io::error::WriteError;
-use crate::io::format::Format;
+use crate::io::format::{ExportRow, Format};
 use crate::io::loss::LossReport;
 
 /// Writes a drawing of some name.
@@ -32,6 +33,13 @@ pub static STEP: Format = Format {
             step::write(drawing, name, step::Protocol::Ap214)
         })
     }),
+    exports: &[ExportRow {
+        label: "Export STEP…",
+        help: "Export curves as B-splines for CAD programs",
+        icon: "share",
+        key: None,
+        polygon: None,
+    }],
     ..NONE
 };
 
@@ -54,6 +62,13 @@ pub static IGES: Format = Format {
     extensions: &["igs", "iges"],
     draw: Some(iges::read),
     write: Some(|document, knots, losses| written(document, knots, losses, iges::write)),
+    exports: &[ExportRow {
+        label: "Export IGES…",
+        help: "Export curves as B-splines for older CAD programs",
+        icon: "share",
+        key: None,
+        polygon: None,
+    }],
     ..NONE
 };
 
@@ -63,6 +78,13 @@ pub static THREEDM: Format = Format {
     extensions: &["3dm"],
     draw: Some(threedm::read),
     write: Some(|document, knots, losses| written(document, knots, losses, threedm::write)),
+    exports: &[ExportRow {
+        label: "Export 3DM…",
+        help: "Export curves with their names and colours for Rhino",
+        icon: "share",
+        key: None,
+        polygon: None,
+    }],
     ..NONE
 };
 
@@ -71,9 +93,14 @@ pub static SVG: Format = Format {
     name: "SVG",
     extensions: &["svg"],
     draw: Some(svg::read),
-    write: Some(|document, _, losses| {
-        written(document, Some(PolygonKind::Bezier), losses, svg::write)
-    }),
+    write: Some(|document, _, losses| drawn(document, Written::Cubics, losses, svg::write)),
+    exports: &[ExportRow {
+        label: "Export SVG…",
+        help: "Export planar curves as Béziers, 1 : 1 in millimetres",
+        icon: "share",
+        key: None,
+        polygon: None,
+    }],
     ..NONE
 };
 
@@ -82,9 +109,7 @@ pub static GLIF: Format = Format {
     name: "GLIF",
     extensions: &["glif"],
     draw: Some(glif::read),
-    write: Some(|document, _, losses| {
-        written(document, Some(PolygonKind::Bezier), losses, glif::write)
-    }),
+    write: Some(|document, _, losses| drawn(document, Written::Cubics, losses, glif::write)),
     ..NONE
 };
 
@@ -126,8 +151,18 @@ fn written(
     losses: &mut LossReport,
     write: WriteDrawing,
 ) -> Result<Vec<u8>, WriteError> {
+    let knots = knots.unwrap_or(PolygonKind::Clamped);
+    drawn(document, Written::Knots(knots), losses, write)
+}
+
+fn drawn(
+    document: &Document,
+    way: Written,
+    losses: &mut LossReport,
+    write: WriteDrawing,
+) -> Result<Vec<u8>, WriteError> {
     let format = losses.format;
-    let drawing = Drawing::of(document, knots.unwrap_or(PolygonKind::Clamped), losses)?;
+    let drawing = Drawing::of(document, way, losses)?;
     let name = drawing.items.first().and_then(|item| item.name.clone());
     let bytes = write(&drawing, name.as_deref().unwrap_or("curves"));
     bytes.map_err(|Unreadable { reason, .. }| WriteError::Refused { format, reason })

@@ -3,6 +3,7 @@
 
 mod brep;
 mod conic_frame;
+mod cubics;
 mod curve_json;
 pub mod drawing;
 pub(super) mod dxf;

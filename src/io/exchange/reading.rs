@@ -24,12 +24,8 @@ enum Made {
 }
 
 impl Drawing {
-    /// Take the curves of their own: those of blocks too, but not layouts for printing and edges of solids.
-    pub fn free(&self) -> impl Iterator<Item = &Item> {
-        self.items.iter().filter(|item| item.space == Space::Model)
-    }
-
-    /// Make curves and references of the free items. Lengths are in the file's unit, or in millimetres where Batten has
+    /// Make curves and references of the free items: those of blocks too, but not layouts for printing. Edges of solids
+    /// are taken where nothing is free. Lengths are in the file's unit, or in millimetres where Batten has
     /// no such unit.
     pub fn reading(&self) -> Reading {
         let (unit, factor) = unit_of(self.unit);
@@ -42,10 +38,15 @@ impl Drawing {
             points: Vec::new(),
             factor,
         };
-        for item in self.free() {
+        let is_in = |space: Space| self.items.iter().any(|item| item.space == space);
+        let taken_space = match is_in(Space::Edge) && !is_in(Space::Model) {
+            true => Space::Edge,
+            false => Space::Model,
+        };
+        for item in self.items.iter().filter(|item| item.space == taken_space) {
             taken.take(item);
         }
-        taken.finish(self)
+        taken.finish(self, taken_space)
     }
 }
 
@@ -134,7 +135,7 @@ impl Taken {
     }
 
     /// Add the points, and say what was not taken.
-    fn finish(mut self, drawing: &Drawing) -> Reading {
+    fn finish(mut self, drawing: &Drawing, taken: Space) -> Reading {
         let points = std::mem::take(&mut self.points);
         match points.len() {
             0 => {}
@@ -158,8 +159,11 @@ impl Taken {
                 .iter()
                 .filter(|item| item.space == space)
                 .count();
-            if count > 0 {
-                self.tell(format!("{} left out", counted(count, one, many)));
+            let counted = counted(count, one, many);
+            match (count, space == taken) {
+                (0, _) => {}
+                (_, true) => self.tell(format!("{counted} taken: there is no free curve")),
+                (_, false) => self.tell(format!("{counted} left out")),
             }
         }
         let others = drawing.other.iter();

@@ -1,5 +1,6 @@
 //! What a document becomes in a format of another program.
 
+use super::cubics::Cubics;
 use super::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
 use crate::document::{Curve, Document};
 use crate::geometry::PolygonKind;
@@ -8,14 +9,23 @@ use crate::io::error::WriteError;
 use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
 
+/// How curves are written.
+#[derive(Clone, Copy)]
+pub(super) enum Written {
+    /// On the knots of one of their polygons.
+    Knots(PolygonKind),
+    /// As Béziers up to degree 3; other planar curves as the fewest cubics near them.
+    Cubics,
+}
+
 impl Drawing {
-    /// Take curves with the knots of one of their polygons, and references that formats of other programs can hold.
+    /// Take curves by one of their polygons or as cubics, and references that formats of other programs can hold.
     ///
     /// # Errors
     /// [`WriteError::NoCurves`].
     pub(super) fn of(
         document: &Document,
-        knots: PolygonKind,
+        written: Written,
         losses: &mut LossReport,
     ) -> Result<Self, WriteError> {
         let mut drawing = Self {
@@ -23,10 +33,10 @@ impl Drawing {
             ..Self::default()
         };
         for (_, curve) in document.curves() {
-            report(curve, knots, losses);
+            report(curve, losses);
             drawing.items.push(Item {
                 colour: curve.colour.map(|colour| colour.0),
-                ..named(&curve.name, Kind::Spline, spline(curve, knots))
+                ..named(&curve.name, Kind::Spline, written.shape(curve, losses))
             });
         }
         for (_, reference) in document.references() {
@@ -47,6 +57,25 @@ impl Drawing {
     }
 }
 
+/// The highest degree of a chain of Béziers in formats for drawing.
+const CUBIC: usize = 3;
+
+impl Written {
+    fn shape(self, curve: &Curve, losses: &mut LossReport) -> Shape {
+        let polygon = &curve.polygon;
+        let is_cubic = polygon.degree() <= CUBIC && !polygon.is_rational();
+        match self {
+            Self::Cubics if polygon.is_planar() && !is_cubic => {
+                let Cubics { chain, count, off } = Cubics::along(polygon);
+                losses.add(curve, Loss::Cubics { count, off });
+                Shape::Nurbs(chain)
+            }
+            Self::Cubics => spline(curve, PolygonKind::Bezier, losses),
+            Self::Knots(kind) => spline(curve, kind, losses),
+        }
+    }
+}
+
 fn named(name: &str, kind: Kind, shape: Shape) -> Item {
     Item {
         kind,
@@ -60,23 +89,23 @@ fn named(name: &str, kind: Kind, shape: Shape) -> Item {
     }
 }
 
-fn report(curve: &Curve, knots: PolygonKind, losses: &mut LossReport) {
+fn report(curve: &Curve, losses: &mut LossReport) {
     losses.add_attributes(curve);
     losses.losses.retain(|(_, loss)| *loss != Loss::Colour);
     losses.add_if(!curve.visible, curve, Loss::Hidden);
     losses.add_if(curve.locked, curve, Loss::Locked);
-    let written = FilePolygon::of(&curve.polygon, knots);
-    losses.extend(curve, written.losses(&curve.polygon));
 }
 
-fn spline(curve: &Curve, kind: PolygonKind) -> Shape {
+fn spline(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> Shape {
+    let polygon = FilePolygon::of(&curve.polygon, kind);
+    losses.extend(curve, polygon.losses(&curve.polygon));
     let FilePolygon {
         degree,
         mut vertices,
         mut weights,
         periodic,
         ..
-    } = FilePolygon::of(&curve.polygon, kind);
+    } = polygon;
     if periodic {
         // The knots go round: the first vertices come again.
         vertices.extend_from_within(..degree);
