@@ -1,6 +1,7 @@
 //! What splitting and trimming share.
 
 use super::matches::without_match;
+use super::outcome::Deviation;
 use super::parameter::{Kind, Parameter};
 use crate::document::{Curve, CurveId, Document, Edit};
 use crate::geometry::{End, MAX_SUBDIVISIONS};
@@ -12,6 +13,12 @@ pub(super) const SUBDIVISIONS: Parameter = Parameter {
     help: "How often segments are halved to put a knot at the cut; only a cut at a knot is exact",
     kind: Kind::whole(0, MAX_SUBDIVISIONS as usize, 0),
 };
+
+/// Say what brings parts nearer that are not exact.
+pub(super) fn remark_on_nearness(deviation: Deviation) -> Option<String> {
+    (deviation != Deviation::Exact)
+        .then(|| "No knot lies at the cut: “Refine at most” brings the part nearer".to_owned())
+}
 
 /// Forget the target of an end that is cut off, if it has one, and its match.
 pub(super) fn without_target(

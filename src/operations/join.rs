@@ -20,9 +20,9 @@ use super::parameter::{Choice, Kind, POSITIVE, Parameter};
 use super::targets::place_of;
 use super::values::Values;
 use crate::document::{Edit, EndMatch, MatchPlace};
+use crate::geometry::approximation::merging::{Joint, MergeError, Merged, Track, merge};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::bridging::{Bridge, join};
-use crate::geometry::approximation::merging::{Joint, MergeError, Merged, Track, merge};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{BezierPolygon, Continuity, End, FloatPolygon, Progress, significant};
 

@@ -24,7 +24,7 @@ const COUNT: Parameter = Parameter {
 pub static OPERATION: Operation = Operation {
     name: "refine",
     label: "Refine",
-    help: "Give the polygon more vertices; the curve and its features stay",
+    help: "Give the polygon more vertices; features stay, and the report tells the deviation",
     inputs: Inputs::One,
     parameters: &[COUNT, TOLERANCE],
     check: |input| editable(input).map(drop),

@@ -3,7 +3,7 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{SUBDIVISIONS, without_target};
+use super::cutting::{SUBDIVISIONS, remark_on_nearness, without_target};
 use super::editable::open;
 use super::error::OperationError;
 use super::handle::{Handle, OnCurve, Sets};
@@ -74,7 +74,10 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     };
     let parts = [part([0.0, at], segments[0]), part([at, last], segments[1])];
     let mut outcome = Outcome::renumbered(input, first.polygon, vec![parts[0]], deviation)?;
-    outcome.remarks = lost.into_iter().collect();
+    outcome.remarks = lost
+        .into_iter()
+        .chain(remark_on_nearness(deviation))
+        .collect();
     let document = input.document();
     let cut_off = without_target(document, id, curve, End::Finish);
     outcome.edits.extend(cut_off);

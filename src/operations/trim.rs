@@ -3,7 +3,7 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{SUBDIVISIONS, without_target};
+use super::cutting::{SUBDIVISIONS, remark_on_nearness, without_target};
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::handle::{Handle, OnCurve, Sets};
@@ -100,6 +100,7 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
         let cut_off = without_target(input.document(), id, curve, End::Finish);
         outcome.edits.extend(cut_off);
     }
+    outcome.remarks.extend(remark_on_nearness(deviation));
     outcome.figures.push(vertices);
     outcome.annotations.extend(ends);
     outcome.handles = handles;
