@@ -17,6 +17,9 @@ use crate::io::reading::{Reading, Remark};
 /// Axes whose angle or length differs by less than this share are perpendicular, or of one length.
 const SAME: f64 = 1e-12;
 
+/// The brightness of colours that are kept, of 255.
+const SEEN: std::ops::RangeInclusive<f64> = 40.0..=225.0;
+
 /// What a shape becomes.
 enum Made {
     Curve(NearestFloat),
@@ -82,6 +85,13 @@ fn unit_of(millimetres: Option<f64>) -> (Option<LengthUnit>, f64) {
     }
 }
 
+/// A colour that is seen on a dark and on a light canvas; black, white and what is near them gives way to the theme's.
+fn seen(colour: [u8; 3]) -> Option<Colour> {
+    let [red, green, blue] = colour.map(f64::from);
+    let brightness = 0.3 * red + 0.6 * green + 0.1 * blue;
+    SEEN.contains(&brightness).then_some(Colour(colour))
+}
+
 /// What was taken so far.
 struct Taken {
     reading: Reading,
@@ -108,7 +118,7 @@ impl Taken {
                 Ok(Made::Curve(near)) => self.add_curve(name, near, item.colour),
                 Ok(Made::Reference(curve)) => {
                     let mut reference = Reference::new(name, curve);
-                    reference.colour = item.colour.map(Colour);
+                    reference.colour = item.colour.and_then(seen);
                     self.reading.references.push(reference);
                 }
                 Err(error) => self.tell(format!("{name} (at {}) is left out: {error}", item.at)),
@@ -126,7 +136,7 @@ impl Taken {
             });
         }
         let mut curve = Curve::new(name, near.polygon);
-        curve.colour = colour.map(Colour);
+        curve.colour = colour.and_then(seen);
         self.reading.curves.push(curve);
     }
 
