@@ -74,7 +74,7 @@ impl Condition {
                 let radius = actual.filter(|_| quantity == Quantity::Curvature);
                 let now = now_ui(ui, &actual.map_or("none".to_owned(), shown));
                 if let Some(curvature) = radius {
-                    now.on_hover_text(format!("R {}", figures::radius_of(curvature, 6)));
+                    now.on_hover_text(radius_text(ui, curvature));
                 }
                 return self.lock_ui(ui);
             };
@@ -86,7 +86,7 @@ impl Condition {
             };
             let name = format!("target {}", self.name.to_lowercase());
             let field = NumberField::new(&name, value, shown(value)).speed(speed);
-            let radius = format!("R {}", figures::radius_of(value, 6));
+            let radius = radius_text(ui, value);
             let field = match quantity {
                 Quantity::Curvature => field.help(&radius),
                 _ => field,
@@ -119,6 +119,12 @@ impl Condition {
         let event = event.map(|event| event.map(|direction| set(Some(direction))));
         row.inner.or(event)
     }
+}
+
+/// The radius of a curvature.
+fn radius_text(ui: &Ui, curvature: f64) -> String {
+    let radius = document_unit::length(ui.ctx(), figures::radius_of(curvature, 6));
+    format!("R {radius}")
 }
 
 fn now_ui(ui: &mut Ui, actual: &str) -> Response {

@@ -11,7 +11,7 @@ use lucide_icons::Icon;
 use super::feature_marks::glyph;
 use super::legend::legend_ui;
 use super::theme::{self, ROW, STEP, Tokens};
-use super::{figures, icons, widgets};
+use super::{document_unit, figures, icons, widgets};
 use crate::editor::{
     CurvatureDisplay, Editor, FeatureKind, FeatureReport, FeatureRow, Look, MenuSubject,
 };
@@ -243,8 +243,10 @@ fn row_ui(
     let radius = row
         .value
         .filter(|_| row.bend().is_some() && display.shows_radius());
-    let radius =
-        radius.map(|[low, high]| format!(", R {}", figures::radius_of(0.5 * (low + high), 4)));
+    let radius = radius.map(|[low, high]| {
+        let radius = figures::radius_of(0.5 * (low + high), 4);
+        format!(", R {}", document_unit::length(ui.ctx(), radius))
+    });
     let name = match (row.remark, row.count) {
         ("", 1) => short_name(row.kind).to_owned() + &bend + radius.as_deref().unwrap_or_default(),
         ("", count) => format!("{} ×{count}", short_name(row.kind)),

@@ -8,6 +8,7 @@ use crate::editor::view::osculating_circle::OsculatingCircle;
 use crate::editor::view::overlay::{Closed, Hovering, Overlay};
 use crate::editor::view::scene::HoverScene;
 use crate::editor::view::sight::Sight;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{coordinate, figure, radius_of, significant};
 
 impl Sight<'_> {
@@ -124,11 +125,14 @@ impl Sight<'_> {
         let mut lines = vec![parameter, self.coordinates(jet.point, !planar)];
         if is_smooth {
             let display = self.view.curvature_display;
+            let unit = self.document().unit().map(LengthUnit::symbol);
+            let [per, unit] =
+                [" /", " "].map(|sign| unit.map_or(String::new(), |it| format!("{sign}{it}")));
             if display.shows_curvature() {
-                lines.push(format!("κ {}", figure(curvature)));
+                lines.push(format!("κ {}{per}", figure(curvature)));
             }
             if display.shows_radius() {
-                lines.push(format!("R {}", radius_of(curvature, 7)));
+                lines.push(format!("R {}{unit}", radius_of(curvature, 7)));
             }
             let torsion = Some(jet.torsion()).filter(|torsion| !planar && torsion.is_finite());
             lines.extend(torsion.map(|torsion| format!("τ {}", figure(torsion))));
