@@ -248,6 +248,7 @@ fn samples() -> Drawing {
             .into_iter()
             .map(|(kind, shapes)| item(kind, shapes))
             .collect(),
+        unit: Some(1.0),
         ..Drawing::default()
     }
 }
