@@ -349,16 +349,16 @@ fn a_match_by_which_the_composite_would_follow_itself_is_dropped_on_demand() {
 
 /// A curve cut in two, the second part changed at the joint so that the ends meet with some continuity.
 fn cut_arc(random: &mut Random, degree: usize, level: Continuity) -> [Curve; 2] {
-    cut(random, degree, level, Lies::InPlane)
+    cut(random, degree, level, Lies::Plane)
 }
 
 /// Where a curve lies, and whether it has weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Lies {
-    InPlane,
-    InPlaneRational,
-    InSpace,
-    InSpaceRational,
+    Plane,
+    PlaneRational,
+    Space,
+    SpaceRational,
 }
 
 fn cut(random: &mut Random, degree: usize, level: Continuity, lies: Lies) -> [Curve; 2] {
@@ -371,13 +371,13 @@ fn cut(random: &mut Random, degree: usize, level: Continuity, lies: Lies) -> [Cu
             place += DVec3::new(angle.cos(), angle.sin(), 0.0);
             angle += turn;
             turn += growth;
-            if matches!(lies, Lies::InSpace | Lies::InSpaceRational) {
+            if matches!(lies, Lies::Space | Lies::SpaceRational) {
                 place.z += 0.4 * (0.2 * place.x).cos();
             }
             place
         })
         .collect();
-    let is_rational = matches!(lies, Lies::InPlaneRational | Lies::InSpaceRational);
+    let is_rational = matches!(lies, Lies::PlaneRational | Lies::SpaceRational);
     let weights = (0..count).map(|index| 1.0 + 0.3 * (0.3 * index as f64).sin());
     let weights = is_rational.then(|| weights.collect());
     let whole = FloatPolygon::new(degree, vertices, weights, false).expect("a polygon");
@@ -470,20 +470,20 @@ fn check_merged(count: usize, lies: Lies) -> usize {
 
 #[test]
 fn curves_that_meet_smoothly_are_merged_within_the_tolerance() {
-    for lies in [Lies::InPlane, Lies::InPlaneRational, Lies::InSpace] {
+    for lies in [Lies::Plane, Lies::PlaneRational, Lies::Space] {
         assert_eq!(check_merged(8, lies), 8, "{lies:?}");
     }
     // The others are chained.
-    assert!(check_merged(8, Lies::InSpaceRational) >= 6);
+    assert!(check_merged(8, Lies::SpaceRational) >= 6);
 }
 
 #[test]
 #[ignore = "takes minutes"]
 fn three_hundred_pairs_are_merged() {
-    for lies in [Lies::InPlane, Lies::InPlaneRational] {
+    for lies in [Lies::Plane, Lies::PlaneRational] {
         assert_eq!(check_merged(300, lies), 300, "{lies:?}");
     }
-    for lies in [Lies::InSpace, Lies::InSpaceRational] {
+    for lies in [Lies::Space, Lies::SpaceRational] {
         let merged = check_merged(100, lies);
         assert!(merged >= 80, "{lies:?}: {merged} of 100");
     }
