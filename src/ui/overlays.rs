@@ -26,7 +26,7 @@ pub fn empty_ui(context: &Context, canvas: Rect) {
         ui.vertical_centered(|ui| {
             ui.label(RichText::new("Nothing here yet").color(tokens.strong_text));
             for line in [
-                "D draws a float S-polygon, click by click",
+                "D draws a curve, click by click",
                 "Ctrl+O opens a file; files can also be dropped here",
                 "File > Examples has curves to start from",
             ] {
