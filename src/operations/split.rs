@@ -3,7 +3,7 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{SUBDIVISIONS, remark_on_nearness, without_target};
+use super::cutting::{SUBDIVISIONS, fairest, remark_on_nearness, without_target};
 use super::editable::open;
 use super::error::OperationError;
 use super::handle::{Handle, OnCurve, Sets};
@@ -58,11 +58,14 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let at = values.real(&AT);
-    let subdivisions = values.whole(&SUBDIVISIONS) as u32;
-    let (first, second) = curve.polygon.split(at, subdivisions)?;
+    let whole = [0.0, curve.polygon.segments() as f64];
+    let cut = |halvings| curve.polygon.split(at, halvings);
+    let (first, second) = fairest((&curve.polygon, whole), values, progress, cut, |parts| {
+        vec![&parts.0, &parts.1]
+    })?;
     let deviation = Deviation::of(&first).or(Deviation::of(&second));
     let segments = [&first, &second].map(|part| part.polygon.segments());
     let counts = [&first, &second].map(|part| part.polygon.vertices().len());

@@ -3,7 +3,7 @@
 use std::ops::Bound;
 
 use super::amount::Amount;
-use super::cutting::{SUBDIVISIONS, remark_on_nearness, without_target};
+use super::cutting::{SUBDIVISIONS, fairest, remark_on_nearness, without_target};
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::handle::{Handle, OnCurve, Sets};
@@ -62,11 +62,10 @@ fn last(input: &Operands) -> Result<f64, OperationError> {
     Ok(turns * polygon.segments() as f64)
 }
 
-fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let polygon = &curve.polygon;
     let (from, to) = (values.real(&FROM), values.real(&TO));
-    let subdivisions = values.whole(&SUBDIVISIONS) as u32;
     let turn = polygon.segments() as f64;
     let handles = handles(polygon, [from, to]);
     if !polygon.is_periodic() && [from, to] == [0.0, turn] {
@@ -76,7 +75,10 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
             ..Outcome::unchanged(Deviation::Exact)
         });
     }
-    let part = polygon.trimmed(from, to, subdivisions)?;
+    let cut = |halvings| polygon.trimmed(from, to, halvings);
+    let part = fairest((polygon, [from, to]), values, progress, cut, |part| {
+        vec![part]
+    })?;
     let deviation = Deviation::of(&part);
     let segments = part.polygon.segments();
     let vertices = Figure::count("vertices", "Vertices", part.polygon.vertices().len());

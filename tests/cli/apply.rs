@@ -143,8 +143,8 @@ fn help_describes_each_parameter_with_range_and_default() {
                 "a parameter u, at least 0 and less than the number of segments; default: 0",
                 "--to <U>",
                 "default: the number of segments",
-                "--subdivisions <N>",
-                "a whole number, 0 to 12; default: 0",
+                "--subdivisions <COUNT>",
+                "a whole number; default: automatic",
             ][..],
         ),
         (

@@ -165,7 +165,7 @@ fn splitting_at_a_knot_is_exact_and_makes_two_curves() {
     let given = [
         ("from", Value::Real(0.5)),
         ("to", Value::Real(1.75)),
-        ("subdivisions", Value::Whole(2)),
+        ("subdivisions", Value::List(vec![2.0])),
     ];
     script.operate("trim", &given).expect("the part");
     assert_eq!(script.trial_report().deviation, Deviation::Exact);

@@ -273,7 +273,10 @@ fn the_parts_of_a_curve_get_names_of_their_own() {
     let (mut script, _) = two();
     script.command(Command::Duplicate);
     for _ in 0..2 {
-        let given = [("at", Value::Real(0.5)), ("subdivisions", Value::Whole(1))];
+        let given = [
+            ("at", Value::Real(0.5)),
+            ("subdivisions", Value::List(vec![1.0])),
+        ];
         script.operate("split", &given).expect("the parts");
     }
     let mut names: Vec<String> = script

@@ -332,8 +332,8 @@ fn a_value_that_is_not_allowed_is_refused_and_the_values_stay() {
             ("at", Value::Real(0.0), "At u: 0 is out of range"),
             ("at", Value::Real(f64::NAN), "At u: "),
             ("at", Value::Whole(1), "is needed"),
-            ("subdivisions", Value::Real(1.0), "a whole number"),
-            ("subdivisions", Value::Whole(usize::MAX), "out of range"),
+            ("subdivisions", Value::List(vec![1.5]), "whole number"),
+            ("subdivisions", Value::List(vec![99.0]), "out of range"),
             ("nowhere", Value::Real(1.0), "no parameter “nowhere”"),
         ] {
             let refused = script.set(parameter, value.clone()).expect_err("a refusal");

@@ -103,7 +103,7 @@ fn splitting_between_knots_comes_near_or_halves_segments() {
         });
         assert!(off <= bound, "{off:e} {bound:e}");
     }
-    let given = [real("at", 4.25), whole("subdivisions", 2)];
+    let given = [real("at", 4.25), ("subdivisions", Value::List(vec![2.0]))];
     let (outcome, _) = runner.done("split", &given);
     assert_eq!(outcome.deviation, Deviation::Exact);
     // The knot in the middle is offered.
@@ -124,7 +124,7 @@ fn trimming_keeps_the_part_and_the_targets_of_kept_ends() {
     let given = [
         real("from", 0.5),
         real("to", 1.75),
-        whole("subdivisions", 2),
+        ("subdivisions", Value::List(vec![2.0])),
     ];
     let (outcome, curves) = runner.done("trim", &given);
     assert_eq!(outcome.deviation, Deviation::Exact);

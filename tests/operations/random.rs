@@ -120,6 +120,7 @@ fn assert_harmless(seed: u64) {
                         | OperationError::LockedInMerge { .. }
                         | OperationError::Approximation(_)
                         | OperationError::Fit(_)
+                        | OperationError::Piece { .. }
                         | OperationError::Exclude { .. }
                         | OperationError::Correction(_)),
                     ) => {
