@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
-/// An arc that misses so small a share of a turn is a whole one.
+/// An arc that misses so small an angle of a turn is a whole one.
 const WHOLE: f64 = 1e-12;
 
 /// So many kinds of what is no curve are named, the rest together.
@@ -238,6 +238,34 @@ impl Shape {
         }
     }
 
+    /// Run through a shape backwards, exactly.
+    pub fn reversed(self) -> Self {
+        match self {
+            Self::Nurbs(mut nurbs) => {
+                nurbs.points.reverse();
+                nurbs.knots = nurbs.knots.iter().rev().map(|knot| 0.0 - knot).collect();
+                if let Some(weights) = &mut nurbs.weights {
+                    weights.reverse();
+                }
+                Self::Nurbs(nurbs)
+            }
+            Self::Conic(conic) => Self::Conic(Conic {
+                y: -conic.y,
+                from: -conic.to,
+                to: -conic.from,
+                ..conic
+            }),
+            Self::Polyline { mut points, closed } => {
+                points.reverse();
+                if closed {
+                    points.rotate_right(1);
+                }
+                Self::Polyline { points, closed }
+            }
+            Self::Point(point) => Self::Point(point),
+        }
+    }
+
     /// Place a shape.
     pub fn placed(self, place: &Affine) -> Self {
         match self {
@@ -265,7 +293,7 @@ impl Shape {
 impl Conic {
     /// Whether it closes.
     pub fn is_whole(&self) -> bool {
-        self.to - self.from >= TAU * (1.0 - WHOLE)
+        self.to - self.from >= TAU - WHOLE
     }
 }
 

@@ -1,21 +1,10 @@
-//! Remarks and counts of a reader, of which a damaged file may cause very many.
-
-use crate::io::exchange::drawing::Drawing;
+//! Remarks of a reader, of which a damaged file may cause very many.
 
 /// The most remarks that are kept; nobody reads more, and each takes memory.
 const LIMIT: usize = 1000;
 
-/// The most kinds that are counted each; each costs a comparison for all that follow.
-const KIND_LIMIT: usize = 200;
-
-/// Count something that is not a curve; above a limit, kinds are counted together.
-pub(super) fn count(drawing: &mut Drawing, kind: &str, at: u64) {
-    let known = drawing.other.len() < KIND_LIMIT || drawing.other.iter().any(|it| it.kind == kind);
-    drawing.count_other(if known { kind } else { "further kinds" }, at);
-}
-
 /// The remarks of a reader; those above a limit are only counted.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub(super) struct Remarks {
     kept: Vec<String>,
     more: usize,
@@ -29,6 +18,11 @@ impl Remarks {
         } else {
             self.more += 1;
         }
+    }
+
+    /// Add a remark on an entity, by its line.
+    pub(super) fn add_at(&mut self, line: u64, entity: &str, reason: &str) {
+        self.add(format!("line {line}: {entity}: {reason}"));
     }
 
     /// Get all remarks.

@@ -1,7 +1,7 @@
 //! What the formats that hold splines, and those that hold Bézier curves alone, need to know of a shape.
 
 use std::borrow::Cow;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
 
@@ -110,11 +110,6 @@ pub(super) fn spline(shape: &Shape) -> Option<Cow<'_, Nurbs>> {
 pub(super) fn at(conic: &Conic, parameter: f64) -> DVec3 {
     let (sin, cos) = parameter.sin_cos();
     conic.centre + cos * conic.x + sin * conic.y
-}
-
-/// Tell whether an arc is a whole ellipse.
-pub(super) fn is_whole(conic: &Conic) -> bool {
-    conic.to - conic.from >= TAU - 1e-12
 }
 
 /// Say which item something is about.
@@ -262,7 +257,7 @@ fn from_conic(conic: &Conic) -> Nurbs {
         weights.extend([weight, 1.0]);
     }
     knots.push(parts);
-    if is_whole(conic) {
+    if conic.is_whole() {
         points.pop();
         points.extend(points.first().copied());
     }

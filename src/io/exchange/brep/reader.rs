@@ -9,9 +9,7 @@ use super::spending::Spending;
 use super::spline_part::is_finite;
 use super::tokens::Tokens;
 use super::topology::{self, Content, Edge, Part, Reference};
-use crate::io::exchange::drawing::{
-    Affine, Conic, Drawing, Item, Kind, Nurbs, Shape, Space, Unreadable,
-};
+use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Shape, Space, Unreadable};
 
 /// How deep compounds may nest.
 const NESTING: usize = 64;
@@ -188,7 +186,7 @@ impl Reader {
             match self.edge(child.part, &outer.of(own)) {
                 Ok(Some((kind, shape))) => {
                     let shape = if child.is_reversed {
-                        reversed(shape)
+                        shape.reversed()
                     } else {
                         shape
                     };
@@ -391,33 +389,5 @@ fn close(shape: &mut Shape) {
     {
         points.pop();
         *closed = true;
-    }
-}
-
-fn reversed(shape: Shape) -> Shape {
-    match shape {
-        Shape::Nurbs(mut nurbs) => {
-            let sum = match (nurbs.knots.first(), nurbs.knots.last()) {
-                (Some(first), Some(last)) => first + last,
-                _ => 0.0,
-            };
-            nurbs.points.reverse();
-            if let Some(weights) = &mut nurbs.weights {
-                weights.reverse();
-            }
-            let knots = nurbs.knots.iter().rev().map(|knot| sum - knot).collect();
-            Shape::Nurbs(Nurbs { knots, ..nurbs })
-        }
-        Shape::Conic(conic) => Shape::Conic(Conic {
-            y: -conic.y,
-            from: -conic.to,
-            to: -conic.from,
-            ..conic
-        }),
-        Shape::Polyline { mut points, closed } => {
-            points.reverse();
-            Shape::Polyline { points, closed }
-        }
-        Shape::Point(point) => Shape::Point(point),
     }
 }

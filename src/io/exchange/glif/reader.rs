@@ -4,7 +4,7 @@ use glam::DVec3;
 use roxmltree::Node;
 
 use super::super::pieces::Pieces;
-use super::super::remarks::{Remarks, count};
+use super::super::remarks::Remarks;
 use super::super::xml::Source;
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Space, Unreadable};
 
@@ -79,7 +79,7 @@ impl Reader<'_> {
     }
 
     fn count(&mut self, node: Node, kind: &str) {
-        count(&mut self.drawing, kind, self.source.line_of(node));
+        self.drawing.count_other(kind, self.source.line_of(node));
     }
 
     fn contour(&mut self, node: Node) {

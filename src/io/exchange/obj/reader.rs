@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::remarks::{Remarks, count};
+use super::super::remarks::Remarks;
 use super::curves::Curve;
 use super::words::{DEFAULT_GROUP, UNIT};
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Shape, Space, Unreadable};
@@ -96,7 +96,8 @@ impl Reader {
             Ok(true) => {}
             Ok(false) => {
                 self.known -= 1;
-                count(&mut self.drawing, word.get(..40).unwrap_or(word), self.line);
+                self.drawing
+                    .count_other(word.get(..40).unwrap_or(word), self.line);
             }
             Err(reason) => self.remark(&format!("“{word}” is skipped: {reason}")),
         }

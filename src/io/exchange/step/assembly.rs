@@ -8,12 +8,12 @@ use glam::DMat3;
 use super::expansion::{Insertion, Placement, expand};
 use super::instances::{Instance, Instances};
 use super::placements::{axes, inverse, map};
-use super::remarks::Remarks;
 use super::representations::{Representations, product_name, text};
 use super::styles::{Style, Styles};
 use super::text::decode;
 use super::tokens::Value;
 use crate::io::exchange::drawing::Affine;
+use crate::io::exchange::remarks::Remarks;
 
 /// Representations joined without a transformation share their placements: they are one node.
 pub struct Assembly<'a> {
@@ -138,7 +138,7 @@ impl<'a> Builder<'a, '_> {
                 "#{} REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION",
                 relation.id
             );
-            self.remarks.add(
+            self.remarks.add_at(
                 relation.line,
                 &entity,
                 "its transformation is damaged; the part is not placed",
@@ -165,7 +165,7 @@ impl<'a> Builder<'a, '_> {
                     }
                     None => {
                         let entity = format!("#{id} MAPPED_ITEM");
-                        self.remarks.add(
+                        self.remarks.add_at(
                             item.line,
                             &entity,
                             "its map or target is damaged, skipped",

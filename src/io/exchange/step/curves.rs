@@ -10,11 +10,11 @@ use super::flaw::Flaw;
 use super::form::Form;
 use super::instances::{Instance, Instances};
 use super::placements::{direction, half_axes, operator, point};
-use super::remarks::Remarks;
 use super::splines::{is_spline, spline};
 use super::tokens::Value;
 use super::trims::{Cutting, Trim, between, trimmed};
 use crate::io::exchange::drawing::{Conic, Kind, Shape};
+use crate::io::exchange::remarks::Remarks;
 
 /// How deep curves may refer to curves.
 const DEEPEST: usize = 64;
@@ -117,7 +117,7 @@ impl<'a> Curves<'a, '_> {
         let entity = format!("#{} {}", instance.id, instance.name());
         self.remarks
             .borrow_mut()
-            .add(instance.line, &entity, reason);
+            .add_at(instance.line, &entity, reason);
     }
 
     fn curve(&self, curve: &Instance<'a>, depth: usize) -> Read<'a> {
@@ -274,7 +274,7 @@ impl<'a> Curves<'a, '_> {
                     entity,
                     reason,
                 }) => {
-                    self.remarks.borrow_mut().add(
+                    self.remarks.borrow_mut().add_at(
                         line,
                         &entity,
                         &format!("{reason}; the piece is left out"),
@@ -282,7 +282,7 @@ impl<'a> Curves<'a, '_> {
                 }
                 Err(Flaw::Unknown { line, entity }) => {
                     let reason = "this kind of curve is not read; the piece is left out";
-                    self.remarks.borrow_mut().add(line, &entity, reason);
+                    self.remarks.borrow_mut().add_at(line, &entity, reason);
                 }
             }
             if self.file.is_exhausted() {

@@ -10,37 +10,9 @@ use crate::io::exchange::drawing::{Conic, Nurbs, Shape};
 /// How far apart, of the size, two ends may lie that count as one.
 const CLOSED: f64 = 1e-7;
 
-/// Reverse a shape exactly.
-pub fn reversed(shape: Shape) -> Shape {
-    match shape {
-        Shape::Nurbs(mut nurbs) => {
-            nurbs.points.reverse();
-            nurbs.knots = nurbs.knots.iter().rev().map(|knot| 0.0 - knot).collect();
-            if let Some(weights) = &mut nurbs.weights {
-                weights.reverse();
-            }
-            Shape::Nurbs(nurbs)
-        }
-        Shape::Conic(conic) => Shape::Conic(Conic {
-            y: -conic.y,
-            from: -conic.to,
-            to: -conic.from,
-            ..conic
-        }),
-        Shape::Polyline { mut points, closed } => {
-            points.reverse();
-            if closed {
-                points.rotate_right(1);
-            }
-            Shape::Polyline { points, closed }
-        }
-        Shape::Point(point) => Shape::Point(point),
-    }
-}
-
 /// Reverse a chain of shapes.
 pub fn chain_reversed(shapes: Vec<Shape>) -> Vec<Shape> {
-    shapes.into_iter().rev().map(reversed).collect()
+    shapes.into_iter().rev().map(Shape::reversed).collect()
 }
 
 /// Cut a whole conic from angle `from` to angle `to`, along its own sense or against it.
@@ -79,13 +51,13 @@ pub fn spline_part(nurbs: Nurbs, from: f64, to: f64, forward: bool) -> Option<Sh
     } else if closed {
         over_joint(&nurbs, first, last)
     } else {
-        return Some(reversed(Shape::Nurbs(piece(&nurbs, last, first)?)));
+        return Some(Shape::Nurbs(piece(&nurbs, last, first)?).reversed());
     }?;
     let part = Shape::Nurbs(part);
     Some(if forward || !closed {
         part
     } else {
-        reversed(part)
+        part.reversed()
     })
 }
 

@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
-use super::remarks::Remarks;
 use super::styles::Style;
 use crate::io::exchange::drawing::Affine;
+use crate::io::exchange::remarks::Remarks;
 
 /// How deep assemblies may be nested.
 const DEEPEST: usize = 64;
@@ -68,7 +68,7 @@ pub fn expand<'a>(
         }
     }
     for insertion in order.left_out {
-        remarks.add(
+        remarks.add_at(
             insertion.line,
             "assembly",
             "a part is nested more than 64 deep or within itself",
@@ -159,7 +159,7 @@ impl<'a, 'i> Order<'a, 'i> {
             .map(|it| it.line)
             .next()
             .unwrap_or(0);
-        remarks.add(
+        remarks.add_at(
             line,
             "assembly",
             "it has more than 500000 parts; the rest is left out",

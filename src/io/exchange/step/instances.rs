@@ -3,9 +3,9 @@
 use std::cell::Cell;
 use std::cmp::Reverse;
 
-use super::remarks::Remarks;
 use super::tokens::{Params, Value, keyword, number_of, skip_space, skipped, split_list};
 use crate::io::exchange::drawing::Unreadable;
+use crate::io::exchange::remarks::Remarks;
 
 /// The index of a file.
 pub struct Instances<'a> {
@@ -60,7 +60,7 @@ impl<'a> Instances<'a> {
                 && id_of(first) == id_of(second)
                 && let Some(entry) = entries.get(*second as usize)
             {
-                remarks.add(
+                remarks.add_at(
                     entry.line.into(),
                     &format!("#{}", entry.id),
                     "its number is taken, skipped",
@@ -287,7 +287,7 @@ impl<'a, 'r> Scan<'a, 'r> {
             let statement = rest.get(..end).unwrap_or_default();
             if !ended {
                 self.remarks
-                    .add(line.into(), &head(statement), "no semicolon ends it");
+                    .add_at(line.into(), &head(statement), "no semicolon ends it");
             }
             let (word, _) = keyword(statement);
             match word {
@@ -301,7 +301,7 @@ impl<'a, 'r> Scan<'a, 'r> {
         }
         if inside {
             let line = self.line();
-            self.remarks.add(
+            self.remarks.add_at(
                 line.into(),
                 "ENDSEC",
                 "it is missing: the file may be cut off",
@@ -314,7 +314,7 @@ impl<'a, 'r> Scan<'a, 'r> {
         let Some((id, body)) = instance_head(statement) else {
             if !statement.is_empty() {
                 self.remarks
-                    .add(line.into(), &head(statement), "no instance, skipped");
+                    .add_at(line.into(), &head(statement), "no instance, skipped");
             }
             return;
         };
@@ -322,7 +322,7 @@ impl<'a, 'r> Scan<'a, 'r> {
             body.first(),
             Some(b'(' | b'!' | b'_' | b'A'..=b'Z' | b'a'..=b'z')
         ) {
-            self.remarks.add(
+            self.remarks.add_at(
                 line.into(),
                 &format!("#{id}"),
                 "no entity follows its number, skipped",

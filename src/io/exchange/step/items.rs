@@ -8,11 +8,11 @@ use super::expansion::Placement;
 use super::flaw::Flaw;
 use super::instances::{Instance, Instances};
 use super::placements::point;
-use super::remarks::Remarks;
 use super::styles::{Style, Styles};
 use super::text::decode;
 use super::tokens::Params;
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Shape, Space};
+use crate::io::exchange::remarks::Remarks;
 
 /// How deep solids, shells, faces and loops may be nested.
 const DEEPEST: usize = 64;
@@ -230,7 +230,7 @@ impl<'a> Walk<'a, '_> {
             } => {
                 self.remarks
                     .borrow_mut()
-                    .add(line, &entity, &format!("{reason}, skipped"));
+                    .add_at(line, &entity, &format!("{reason}, skipped"));
             }
             Flaw::Unknown { line, entity } => self.drawing.count_other(&entity, line),
         }

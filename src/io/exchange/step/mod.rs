@@ -12,7 +12,6 @@ mod items;
 mod output;
 mod placements;
 mod reader;
-mod remarks;
 mod representations;
 mod shapes;
 mod splines;

@@ -8,11 +8,11 @@ use super::curves::Curves;
 use super::expansion::Placement;
 use super::instances::Instances;
 use super::items::{Role, Walk, role};
-use super::remarks::Remarks;
 use super::representations::Representations;
 use super::styles::{Style, Styles};
 use super::units::Units;
 use crate::io::exchange::drawing::{Drawing, Unreadable};
+use crate::io::exchange::remarks::Remarks;
 
 /// Read a STEP file: free curves and points, and the edges of solids.
 pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
@@ -31,9 +31,9 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     reader.external_files(&mut drawing);
     if reader.file.is_exhausted() || drawing.items.len() >= 1_000_000 {
         let reason = "it grows beyond what a file of this length may need; the rest is left out";
-        reader.remarks.borrow_mut().add(1, "file", reason);
+        reader.remarks.borrow_mut().add_at(1, "file", reason);
     }
-    drawing.remarks = reader.remarks.into_inner().into_texts();
+    drawing.remarks = reader.remarks.into_inner().finish();
     Ok(drawing)
 }
 
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
             let reason = "none holds a curve; curves that nothing refers to are taken as they are";
             self.remarks
                 .borrow_mut()
-                .add(line, "REPRESENTATION", reason);
+                .add_at(line, "REPRESENTATION", reason);
         }
     }
 
@@ -111,7 +111,7 @@ impl<'a> Reader<'a> {
             let reason = format!("'{name}' is a file of its own: open it to see its curves");
             self.remarks
                 .borrow_mut()
-                .add(document.line, &entity, &reason);
+                .add_at(document.line, &entity, &reason);
         }
     }
 

@@ -2,9 +2,7 @@
 
 use glam::DVec3;
 
-use super::cuts::{
-    chain_reversed, conic_part, is_closed, polyline_part, reversed, size, spline_part,
-};
+use super::cuts::{chain_reversed, conic_part, is_closed, polyline_part, size, spline_part};
 use super::evaluation::{Homogeneous, angle_of, end, ends, on_conic, parameter_of, start};
 use super::form::Form;
 use super::instances::Instances;
@@ -205,7 +203,7 @@ fn spline_between(
     }
     if closed && from == to && (from == ends.0 || from == ends.1) {
         let whole = Shape::Nurbs(nurbs.clone());
-        return Ok(if forward { whole } else { reversed(whole) });
+        return Ok(if forward { whole } else { whole.reversed() });
     }
     let part = spline_part(nurbs.clone(), from, to, forward);
     part.ok_or_else(|| "its ends are outside its range".to_owned())
@@ -280,7 +278,7 @@ fn polyline_between(
     if closed {
         if from == to && (from == 0.0 || from == last) {
             let whole = Shape::Polyline { points, closed };
-            return Ok(if forward { whole } else { reversed(whole) });
+            return Ok(if forward { whole } else { whole.reversed() });
         }
         let (low, high) = if forward {
             (&mut from, &mut to)
@@ -296,7 +294,7 @@ fn polyline_between(
     } else if from == 0.0 && to == last - 1.0 {
         return Ok(Shape::Polyline { points, closed });
     } else if to == 0.0 && from == last - 1.0 {
-        return Ok(reversed(Shape::Polyline { points, closed }));
+        return Ok(Shape::Polyline { points, closed }.reversed());
     }
     polyline_part(points, closed, from, to, forward)
         .ok_or_else(|| "its ends are outside its range".to_owned())

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use roxmltree::{Document, Node, NodeId};
 
-use super::super::remarks::{Remarks, count};
+use super::super::remarks::Remarks;
 use super::super::xml::Source;
 use super::lengths::{Along, Viewport, aspect_ratio, length, page, view_box};
 use super::maker::Maker;
@@ -106,7 +106,7 @@ impl<'d> Walk<'d> {
                     .for_each(|it| sheet.add(it)),
                 // What they hide or add is told by their count alone.
                 name @ ("clipPath" | "mask" | "pattern" | "marker") if is_svg(node) => {
-                    count(&mut drawing, name, source.line_of(node));
+                    drawing.count_other(name, source.line_of(node));
                 }
                 _ => {}
             }
@@ -179,7 +179,7 @@ impl<'d> Walk<'d> {
                     self.shape(node, outer, style);
                 }
             }
-            _ => count(&mut self.drawing, name, self.source.line_of(node)),
+            _ => self.drawing.count_other(name, self.source.line_of(node)),
         }
     }
 

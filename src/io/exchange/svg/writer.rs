@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use glam::{DMat3, DVec3};
 
-use super::super::splines::{Piece, at, described, hull, is_whole, pieces};
+use super::super::splines::{Piece, at, described, hull, pieces};
 use super::super::xml::escaped;
 use super::namespaces::{INKSCAPE, SVG};
 use crate::io::exchange::drawing::{Affine, Conic, Drawing, Item, Shape, Unreadable};
@@ -304,7 +304,7 @@ fn path_data(shapes: &[Shape], page: &Page) -> Result<String, String> {
 /// Whether an ellipse is whole, begins at its right and has axes along those of the page.
 fn is_upright(conic: &Conic) -> bool {
     let (x, y) = (conic.x, conic.y);
-    is_whole(conic) && conic.from == 0.0 && x.y == 0.0 && y.x == 0.0 && x.x > 0.0 && y.y > 0.0
+    conic.is_whole() && conic.from == 0.0 && x.y == 0.0 && y.x == 0.0 && x.x > 0.0 && y.y > 0.0
 }
 
 /// Find the principal half-axes of an ellipse, and the direction of the first in degrees.

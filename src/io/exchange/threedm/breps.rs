@@ -81,7 +81,7 @@ fn table(mut data: Cursor, archive: Archive) -> Result<Vec<Edge>, String> {
         data.bytes(trims.saturating_mul(4))?;
         // The tolerance, and the parameters by which programs speak of the edge.
         data.number()?;
-        if archive.version >= 3 && archive.library >= TWO_DOMAINS {
+        if archive.version >= 3 && archive.opennurbs >= TWO_DOMAINS {
             data.interval()?;
         }
         edges.push(Edge { curve, domain });

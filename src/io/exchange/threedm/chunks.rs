@@ -42,8 +42,8 @@ pub(super) const COMPONENT: u32 = 0x4000_8002;
 pub(super) struct Archive {
     /// The version in the header: 2, 3, 4, 5, 50, 60, …
     pub(super) version: u32,
-    /// The date of the library that wrote the file, as a number; 0 if the file does not say it.
-    pub(super) library: u32,
+    /// The date of the openNURBS that wrote the file, as a number; 0 if the file does not say it.
+    pub(super) opennurbs: u32,
 }
 
 impl Archive {

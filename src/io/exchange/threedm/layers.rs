@@ -108,7 +108,7 @@ fn fill(layer: &mut Layer, record: &Chunk, archive: Archive) -> Result<(), Strin
     if minor >= 1 {
         layer.hidden |= data.byte()? == 0;
     }
-    if minor >= 6 && archive.library >= NESTED_LAYERS {
+    if minor >= 6 && archive.opennurbs >= NESTED_LAYERS {
         parents(layer, &mut data)?;
     }
     Ok(())

@@ -7,9 +7,9 @@ use crate::io::exchange::drawing::Unreadable;
 /// The bytes before the first chunk.
 pub(super) const HEADER: usize = 32;
 pub(super) const TITLE: &[u8; 24] = b"3D Geometry File Format ";
-/// The first library of which layers tell their parents rightly; so do the files of this module.
+/// The first openNURBS of which layers tell their parents rightly; so do the files of this module.
 pub(super) const NESTED_LAYERS: u32 = 200_505_111;
-/// The first library of which edges tell two domains.
+/// The first openNURBS of which edges tell two domains.
 pub(super) const TWO_DOMAINS: u32 = 200_206_180;
 /// The code of a unit of any length.
 pub(super) const CUSTOM: u32 = 11;
@@ -68,12 +68,12 @@ pub(super) fn archive(bytes: &[u8]) -> Result<Archive, Unreadable> {
         ),
         Some(version @ (2..=5 | 50 | 60 | 70 | 80)) => Ok(Archive {
             version,
-            library: 0,
+            opennurbs: 0,
         }),
         // Later versions have kept the layout of curves so far.
         Some(version @ 81..=999) => Ok(Archive {
             version,
-            library: 0,
+            opennurbs: 0,
         }),
         _ => refuse(
             25,
@@ -83,7 +83,7 @@ pub(super) fn archive(bytes: &[u8]) -> Result<Archive, Unreadable> {
 }
 
 /// Read the date of the library from the table of properties.
-pub(super) fn library(table: &Chunk, archive: Archive) -> u32 {
+pub(super) fn opennurbs(table: &Chunk, archive: Archive) -> u32 {
     Chunks::new(table.body, archive)
         .find(|chunk| chunk.code == LIBRARY)
         .and_then(|chunk| u32::try_from(chunk.value & 0xFFFF_FFFF).ok())

@@ -40,7 +40,7 @@ pub(super) fn scene(bytes: &[u8]) -> Result<Scene<'_>, Unreadable> {
             .remark(format!("Version {version} is read as if it were version 8"));
     }
     for table in tables.iter().filter(|table| table.code == PROPERTIES) {
-        scene.archive.library = properties::library(table, archive);
+        scene.archive.opennurbs = properties::opennurbs(table, archive);
     }
     for table in &tables {
         scene.table(table);
