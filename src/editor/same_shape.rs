@@ -66,10 +66,12 @@ impl SameShape {
 
     /// Say how far the curve moves, and which features change.
     pub fn told(&self, unit: Option<LengthUnit>) -> String {
-        let unit = unit.map_or(String::new(), |unit| format!(" {}", unit.symbol()));
         let moved = match self.deviation {
             0.0 => "No deviation".to_owned(),
-            bound => format!("Deviation at most {}{unit}", rounded_up(bound)),
+            bound => format!(
+                "Deviation at most {}",
+                LengthUnit::behind(unit, rounded_up(bound))
+            ),
         };
         let kinds = ["extrema", "inflections"].into_iter().enumerate();
         let changed = kinds.filter_map(|(kind, name)| {

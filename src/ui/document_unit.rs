@@ -15,10 +15,7 @@ pub fn set(context: &Context, unit: Option<LengthUnit>) {
 
 /// Append the document's unit, if it has one, to the text of a length.
 pub fn length(context: &Context, text: String) -> String {
-    match get(context) {
-        Some(unit) => format!("{text} {}", unit.symbol()),
-        None => text,
-    }
+    LengthUnit::behind(get(context), text)
 }
 
 /// Append one over the document's unit, if it has one, to the text of a curvature.

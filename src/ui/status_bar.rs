@@ -80,10 +80,8 @@ fn cells(readout: &Readout, display: CurvatureDisplay, unit: Option<LengthUnit>)
     });
     let parameter = readout.parameter.map(|parameter| format!("{parameter:.3}"));
     let curvature = readout.curvature.map(|k| figures::significant(k, 5));
-    let symbol = unit.map_or(String::new(), |unit| format!(" {}", unit.symbol()));
-    let radius = readout
-        .curvature
-        .map(|k| figures::radius_of(k, 5) + &symbol);
+    let radius = |k| LengthUnit::behind(unit, figures::radius_of(k, 5));
+    let radius = readout.curvature.map(radius);
     let degree = readout.degree.map(|degree| degree.to_string());
     let others = [
         (readout.parameter_name, parameter, 64.0),

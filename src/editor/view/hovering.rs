@@ -125,14 +125,14 @@ impl Sight<'_> {
         let mut lines = vec![parameter, self.coordinates(jet.point, !planar)];
         if is_smooth {
             let display = self.view.curvature_display;
-            let unit = self.document().unit().map(LengthUnit::symbol);
-            let [per, unit] =
-                [" /", " "].map(|sign| unit.map_or(String::new(), |it| format!("{sign}{it}")));
+            let unit = self.document().unit();
             if display.shows_curvature() {
+                let per = unit.map_or(String::new(), |unit| format!(" /{}", unit.symbol()));
                 lines.push(format!("κ {}{per}", figure(curvature)));
             }
             if display.shows_radius() {
-                lines.push(format!("R {}{unit}", radius_of(curvature, 7)));
+                let radius = LengthUnit::behind(unit, radius_of(curvature, 7));
+                lines.push(format!("R {radius}"));
             }
             let torsion = Some(jet.torsion()).filter(|torsion| !planar && torsion.is_finite());
             lines.extend(torsion.map(|torsion| format!("τ {}", figure(torsion))));

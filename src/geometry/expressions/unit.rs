@@ -27,6 +27,14 @@ impl LengthUnit {
         }
     }
 
+    /// Write the text of a length with the unit behind it, if there is one.
+    pub fn behind(unit: Option<Self>, text: String) -> String {
+        match unit {
+            Some(unit) => format!("{text} {}", unit.symbol()),
+            None => text,
+        }
+    }
+
     /// Its name: millimetres, centimetres, metres or inches.
     pub fn name(self) -> &'static str {
         match self {
