@@ -223,8 +223,10 @@ pub enum Problem {
     /// A match does not name one source.
     #[error("a match follows one thing: a curve, as source, or a reference")]
     MatchSource,
-    /// A reference has no kind, formula or points, or several of them.
-    #[error("a reference is one of three things: a kind with values, a formula or points")]
+    /// A reference has no kind, formula, points or B-spline, or several of them.
+    #[error(
+        "a reference is one of four things: a kind with values, a formula, points or a B-spline"
+    )]
     NoReference,
     /// A reference has a kind that is not known.
     #[error("{} is not a kind of reference that this program knows: there are {known}", quoted(.name))]

@@ -136,11 +136,11 @@ fn references_that_cannot_be_are_refused_with_their_place() {
     for (reference, expected) in [
         (
             r#"{"name":"a"}"#,
-            "reference 1 “a”: a reference is one of three things: a kind with values, a formula or points",
+            "reference 1 “a”: a reference is one of four things: a kind with values, a formula, points or a B-spline",
         ),
         (
             r#"{"kind":"circle","points":[[0,0],[1,1]]}"#,
-            "reference 1 “reference 1”: a reference is one of three things: a kind with values, a formula or points",
+            "reference 1 “reference 1”: a reference is one of four things: a kind with values, a formula, points or a B-spline",
         ),
         (
             r#"{"kind":"circle","values":{"size":2}}"#,
