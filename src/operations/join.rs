@@ -244,11 +244,20 @@ impl Joining<'_> {
         let [left, right] = self.in_order(&self.parts[0].1.polygon, &second);
         let gap = match Joint::between(left, right).check(self.tolerance) {
             Ok(()) => {
-                return match self.merged(self.tolerance) {
-                    Err(OperationError::Merge(MergeError::OutOfReach { .. })) => self.chained(),
-                    Err(OperationError::LockedInMerge { .. }) => self.chained(),
-                    found => found,
+                let merged = self.merged(self.tolerance);
+                let why = match &merged {
+                    Err(OperationError::Merge(MergeError::OutOfReach { tolerance })) => {
+                        let tolerance = significant(*tolerance, 3);
+                        format!("No merged curve is within {tolerance} of both")
+                    }
+                    Err(OperationError::LockedInMerge { name }) => {
+                        format!("“{name}” has locked vertices and cannot be merged")
+                    }
+                    _ => return merged,
                 };
+                let mut chained = self.chained()?;
+                chained.remarks.push(format!("{why}: chained"));
+                return Ok(chained);
             }
             Err(MergeError::Apart { distance, .. }) => distance,
             Err(_) => return self.chained(),
