@@ -43,6 +43,9 @@ const STRIDES_FROM: usize = 8;
 const MORE: usize = 2;
 const MORE_TIME: Duration = Duration::from_millis(500);
 
+/// So long what asking for each number of extrema brings is looked for, beside the fewest.
+const EACH_TIME: Duration = Duration::from_secs(3);
+
 /// Levels of fewer extrema that begin those of more.
 const RELEASED: usize = 3;
 
@@ -125,7 +128,7 @@ pub fn fit_plane(
         whole: &whole,
         asked,
         progress,
-        tables: SlopeTables::new(asked.degree),
+        tables: &SlopeTables::new(asked.degree),
     };
     let (level, trade_off, least_extrema) = fit.found();
     if progress.is_cancelled() && !progress.is_late() {
@@ -171,6 +174,7 @@ struct Searched {
     is_far: bool,
 }
 
+#[derive(Clone, Copy)]
 struct Fit<'a> {
     /// The points that are looked at in the search.
     prepared: &'a Prepared,
@@ -178,7 +182,7 @@ struct Fit<'a> {
     whole: &'a Prepared,
     asked: &'a PlaneFit,
     progress: &'a Progress,
-    tables: SlopeTables,
+    tables: &'a SlopeTables,
 }
 
 impl Fit<'_> {
@@ -216,7 +220,7 @@ impl Fit<'_> {
             most: most.max(self.asked.degree + 1),
             tolerance,
             known: None,
-            tables: &self.tables,
+            tables: self.tables,
             progress: self.progress,
         }
     }
@@ -242,10 +246,11 @@ impl Fit<'_> {
             return (Some(exact), Vec::new(), None);
         }
         let Extrema::Exactly(extrema) = self.asked.extrema else {
-            let search = self.fewest(true);
+            let mut search = self.fewest(true);
+            self.ask_for_each(&mut search);
             return (search.best, search.trade_off, None);
         };
-        let (level, trade_off) = self.exactly(extrema);
+        let (level, trade_off) = self.exactly(extrema, true);
         let tolerance = self.prepared.tolerance;
         let is_near = level
             .as_ref()
@@ -337,15 +342,45 @@ impl Fit<'_> {
         level.holds.then_some(level)
     }
 
-    /// The nearest fit with just so many extrema.
-    fn exactly(&self, extrema: usize) -> (Option<Level>, Vec<TradeOff>) {
+    /// Without a tolerance the search ends where the points are near enough for it, and a wished number of extrema
+    /// where they are as near as they get: tell what asking for each number brings, the nearest numbers first.
+    fn ask_for_each(&self, search: &mut Search) {
+        let is_wanted = self.asked.lists_trade_off && self.asked.tolerance.is_none();
+        let Some(best) = search.best.as_ref().filter(|_| is_wanted) else {
+            return;
+        };
+        let chosen = best.start.slopes.cuts.len();
+        let progress = self.progress.limited(EACH_TIME);
+        let asking = Fit {
+            progress: &progress,
+            ..*self
+        };
+        let mut rows: Vec<&mut TradeOff> = search.trade_off.iter_mut().collect();
+        rows.sort_by_key(|row| row.extrema.abs_diff(chosen));
+        for row in rows {
+            let (_, reached) = asking.exactly(row.extrema, false);
+            if progress.is_cancelled() {
+                break;
+            }
+            if let Some(own) = reached.last().filter(|it| it.extrema == row.extrema) {
+                *row = *own;
+            }
+        }
+    }
+
+    /// The nearest fit with just so many extrema, and what it and those that begin it reach.
+    fn exactly(&self, extrema: usize, is_shown: bool) -> (Option<Level>, Vec<TradeOff>) {
         let levels = self.task(
             extrema,
             self.asked.tolerance.map(|_| self.prepared.tolerance),
         );
         let keeps = self.asked.tolerance.is_some();
         let (fewer, mut reached) = self.ladder(extrema);
-        let levels = levels.levels(&fewer, &|known| self.show_chosen(known, keeps));
+        let levels = levels.levels(&fewer, &|known| {
+            if is_shown {
+                self.show_chosen(known, keeps);
+            }
+        });
         let (level, trade_off) = self.refined_choice(extrema, levels, keeps);
         reached.extend(trade_off);
         (level, reached)
@@ -369,7 +404,7 @@ impl Fit<'_> {
                 ..self.task(rung, None)
             };
             let levels = task.levels(&fewer, &|_| ());
-            reached.extend(self.trade_off(rung, &levels));
+            reached.extend(levels.last().map(|nearest| self.trade_off(rung, nearest)));
             if !levels.is_empty() {
                 fewer = levels.into_iter().rev().take(RELEASED).collect();
             }
@@ -385,8 +420,9 @@ impl Fit<'_> {
         is_for_tolerance: bool,
     ) -> (Option<Level>, Option<TradeOff>) {
         if std::ptr::eq(self.prepared, self.whole) {
-            let trade_off = self.trade_off(extrema, &levels);
-            return (self.chosen(levels, is_for_tolerance), trade_off);
+            let level = self.chosen(levels, is_for_tolerance);
+            let trade_off = level.as_ref().map(|level| self.trade_off(extrema, level));
+            return (level, trade_off);
         }
         let nearest = levels.last().cloned();
         let level = self.chosen(levels, is_for_tolerance);
@@ -404,7 +440,7 @@ impl Fit<'_> {
             }
             (level, _) => level,
         };
-        let trade_off = self.trade_off(extrema, level.as_slice());
+        let trade_off = level.as_ref().map(|level| self.trade_off(extrema, level));
         (level, trade_off)
     }
 
@@ -452,7 +488,9 @@ impl Fit<'_> {
             };
             self.progress.set_done((extrema as f64 / 10.0).min(0.9));
         }
-        self.try_more(step, &mut search);
+        if self.asked.lists_trade_off {
+            self.try_more(step, &mut search);
+        }
         search.trade_off.sort_by_key(|it| it.extrema);
         search
     }
@@ -532,16 +570,14 @@ impl Fit<'_> {
         (step, MOST_EXTREMA.min(self.prepared.counting / 4))
     }
 
-    fn trade_off(&self, extrema: usize, levels: &[Level]) -> Option<TradeOff> {
-        let nearest = levels.last()?;
+    fn trade_off(&self, extrema: usize, level: &Level) -> TradeOff {
         let unit = self.prepared.unit;
-        let largest = levels.iter().map(|level| level.largest);
-        Some(TradeOff {
+        TradeOff {
             extrema,
-            vertices: nearest.splines.count,
-            rms: unit * nearest.rms,
-            largest: unit * largest.fold(f64::INFINITY, f64::min),
-        })
+            vertices: level.splines.count,
+            rms: unit * level.rms,
+            largest: unit * level.largest,
+        }
     }
 
     /// Of ever nearer levels the last one if there is a tolerance, or else the one that explains the points best

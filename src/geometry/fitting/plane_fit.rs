@@ -52,6 +52,8 @@ pub struct PlaneFit {
     /// The axis in which the curve is its own mirror image. An open one has an odd number of extrema then, and an
     /// even one of inflections; the conditions at the start count for the end too.
     pub mirror: Option<Mirror>,
+    /// Whether more numbers of extrema are tried than it takes, to tell what each of them reaches.
+    pub lists_trade_off: bool,
     /// How much each point counts; `None` if all count the same. Those of weight 0 do not count.
     pub weights: Option<Vec<f64>>,
 }
