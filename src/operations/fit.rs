@@ -220,9 +220,16 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     };
     let progress = limited(progress, values);
     let (pieces, corners) = pieces(&points, asked.periodic, values.switch(&SPLIT));
+    let asked = PlaneFit {
+        lists_trade_off: pieces.len() == 1,
+        ..asked
+    };
     let fitted = pieces.iter().enumerate().map(|(index, piece)| {
         let share = |index: usize| index as f64 / pieces.len() as f64;
+        let left: usize = pieces[index..].iter().map(|it| it.numbers.len()).sum();
         let own = progress.part(share(index), share(index + 1));
+        // What one piece leaves of its time the next ones have.
+        let own = own.hurried(piece.numbers.len() as f64 / left.max(1) as f64);
         let fitted = piece.fit(&points, &asked, &own.of_curve(index));
         fitted.map_err(|error| piece.told(error, index, pieces.len()))
     });
@@ -384,6 +391,7 @@ fn asked(points: usize, values: &Values) -> Result<PlaneFit, OperationError> {
         ],
         outliers,
         mirror: mirror(values)?,
+        lists_trade_off: false,
         weights: None,
     })
 }
@@ -446,7 +454,15 @@ fn outcome(
     let marked = fitted.iter().flat_map(|found| &found.outliers);
     let marked = marked.filter_map(|(index, _)| input.points().get(*index));
     let worst = |of: fn(&Fitted) -> f64| fitted.iter().map(of).fold(0.0, f64::max);
-    let mut remarks: Vec<String> = fitted.iter().flat_map(|it| remarks(asked, it)).collect();
+    let told = fitted.iter().enumerate().flat_map(|(index, found)| {
+        let told = remarks(asked, found).into_iter();
+        let is_one = fitted.len() == 1;
+        told.map(move |remark| match is_one {
+            true => remark,
+            false => format!("Piece {}: {remark}", index + 1),
+        })
+    });
+    let mut remarks: Vec<String> = told.collect();
     if !corners.is_empty() && !values.switch(&SPLIT) {
         let named: Vec<String> = corners.iter().take(NAMED).map(usize::to_string).collect();
         let more = match corners.len().saturating_sub(NAMED) {
@@ -518,9 +534,15 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
     let mut remarks = remarks_on_points(&found.outliers, &found.repeated);
     if !found.holds {
         let has = counted(found.extrema, "curvature extremum", "curvature extrema");
-        remarks.push(format!(
-            "No curve was found that holds all that is asked for: this one has {has}. Ask for other extrema, or more vertices"
-        ));
+        let is_wish = asked.extrema != Extrema::Fewest || asked.inflections.is_some();
+        remarks.push(match is_wish {
+            true => format!(
+                "No curve was found that holds all that is asked for: this one has {has}. Ask for other extrema, or more vertices"
+            ),
+            false => format!(
+                "No curve was found whose extrema are proved and that has no loop: this one has {has}. Allow more time, or more vertices"
+            ),
+        });
     }
     if let Some(tolerance) = asked.tolerance.filter(|it| found.deviation > *it) {
         let [off, tolerance] = [found.deviation, tolerance].map(|length| significant(length, 3));
