@@ -216,6 +216,25 @@ fn closed_vertices_at_the_ends_are_handles_of_point_and_tangent() {
 }
 
 #[test]
+fn closed_vertices_beside_an_end_do_not_swing_the_curve() {
+    let vertices = (0..25).map(|it| {
+        let angle = 0.08 * f64::from(it);
+        DVec3::new(10.0 * angle.sin(), 10.0 * angle.cos(), 0.0)
+    });
+    let polygon = FloatPolygon::new(5, vertices.collect(), None, false).expect("one");
+    let by = DVec3::new(0.0, 0.01, 0.0);
+    // By degree 5, the lever of the curvature is longer than that of the tangent.
+    for (index, most) in [(1, 6.0), (2, 8.0), (3, 2.0), (22, 8.0), (23, 6.0)] {
+        let what = Dragged::Clamped(index, by);
+        let after = least_change(&polygon, &what, &reach(24, &[])).expect("a change");
+        let places = (0..=400).map(|it| f64::from(it) / 20.0);
+        let moves = places.map(|u| after.point(u).distance(polygon.point(u)));
+        let farthest = moves.fold(0.0, f64::max) / by.length();
+        assert!(farthest < most, "{index}: {farthest}");
+    }
+}
+
+#[test]
 fn a_change_is_no_corner() {
     let vertices = (0..40).map(|it| DVec3::new(f64::from(it), 0.0, 0.0));
     let polygon = FloatPolygon::new(5, vertices.collect(), None, false).expect("one");
