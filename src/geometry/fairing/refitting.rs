@@ -81,12 +81,10 @@ pub(super) fn fitted(
             refitted: true,
         })
     };
-    // Where no number of inflections is given, fewer will do if those that stand out do not.
+    // A fit that does not look at inflections often has as many as are asked for, and is found where one that forces
+    // them is not; where no number is given, fewer will do.
     let own = Some(known.request.inflections);
-    let tries = match harmony.inflections {
-        Some(_) => vec![(own, FIT)],
-        None => vec![(own, 0.5 * FIT), (None, FIT)],
-    };
+    let tries = [(own, 0.5 * FIT), (None, FIT)];
     let found = tries
         .into_iter()
         .filter_map(|(inflections, share)| tried(inflections, share));
