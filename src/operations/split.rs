@@ -61,16 +61,20 @@ pub static OPERATION: Operation = Operation {
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let at = values.real(&AT);
-    let whole = [0.0, curve.polygon.segments() as f64];
-    let cut = |halvings| curve.polygon.split(at, halvings);
-    let (first, second) = fairest((&curve.polygon, whole), values, progress, cut, |parts| {
-        vec![&parts.0, &parts.1]
-    })?;
+    let last = curve.polygon.segments() as f64;
+    let cut = |halvings| {
+        let (first, second) = curve.polygon.split(at, halvings)?;
+        Ok(vec![first, second])
+    };
+    let spans = [[0.0, at], [at, last]];
+    let parts = fairest(&curve.polygon, &spans, values, progress, cut)?;
+    let Ok([first, second]) = <[_; 2]>::try_from(parts) else {
+        return Err(OperationError::Cancelled);
+    };
     let deviation = Deviation::of(&first).or(Deviation::of(&second));
     let segments = [&first, &second].map(|part| part.polygon.segments());
     let counts = [&first, &second].map(|part| part.polygon.vertices().len());
     let lost = locks::lost(curve, &[&first.polygon, &second.polygon]);
-    let last = curve.polygon.segments() as f64;
     let part = |old: [f64; 2], segments: usize| ParameterSpan {
         old,
         new: [0.0, segments as f64],

@@ -75,10 +75,11 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             ..Outcome::unchanged(Deviation::Exact)
         });
     }
-    let cut = |halvings| polygon.trimmed(from, to, halvings);
-    let part = fairest((polygon, [from, to]), values, progress, cut, |part| {
-        vec![part]
-    })?;
+    let cut = |halvings| Ok(vec![polygon.trimmed(from, to, halvings)?]);
+    let parts = fairest(polygon, &[[from, to]], values, progress, cut)?;
+    let Ok([part]) = <[_; 1]>::try_from(parts) else {
+        return Err(OperationError::Cancelled);
+    };
     let deviation = Deviation::of(&part);
     let segments = part.polygon.segments();
     let vertices = Figure::count("vertices", "Vertices", part.polygon.vertices().len());
