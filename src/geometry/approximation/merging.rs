@@ -49,6 +49,9 @@ const KEPT_IN_SPACE: f64 = 0.5;
 /// The most vertices, by those of both curves.
 const MOST: usize = 2;
 
+/// Vertices and weights that differ by no more than this share of the size are the same.
+const SHARED: f64 = 1e-12;
+
 /// The share of the time that is left for each number of extrema.
 const SHARE: f64 = 0.5;
 
@@ -155,7 +158,8 @@ impl Joint {
     }
 }
 
-/// Make one curve without weights of an open one and another that goes on from its end, within a tolerance: both outer ends
+/// Make one curve of an open one and another that goes on from its end, within a tolerance and without weights; where
+/// the second goes on with the vertices of the first, it is exact and keeps them. Both outer ends
 /// keep point and direction, and the curve has as many curvature extrema as both, and at most two more, proved.
 ///
 /// # Errors
@@ -172,6 +176,11 @@ pub fn merge(
     }
     Joint::between(first, second).check(tolerance)?;
     let own = extrema_of(parts, progress)?;
+    if let Some(polygon) = continued(parts) {
+        let extrema = extrema_of([&polygon], progress)?;
+        let merged = measured(parts, polygon, [own, extrema], progress);
+        return merged.map_err(|_| MergeError::Cancelled);
+    }
     let search = Search {
         points: points_of(parts),
         parts,
@@ -309,7 +318,34 @@ fn added_by_joint([first, second]: [&FloatPolygon; 2], planar: bool, tolerance: 
     pairs.filter(|pair| pair[0] * pair[1] < 0.0).count()
 }
 
-fn extrema_of(parts: [&FloatPolygon; 2], progress: &Progress) -> Result<usize, MergeError> {
+/// The exact curve where the second one goes on with the knots and the last n vertices of the first, as the parts of a
+/// curve do that was split at a knot.
+fn continued([first, second]: [&FloatPolygon; 2]) -> Option<FloatPolygon> {
+    let degree = first.degree();
+    let begin = first.vertices().len().checked_sub(degree)?;
+    let size = first.size().max(second.size());
+    let is_shared = |index: usize| {
+        let [one, other] = [begin + index, index];
+        first.vertex(one).distance(second.vertex(other)) <= SHARED * size
+            && (first.weight(one) - second.weight(other)).abs() <= SHARED * first.weight(one)
+    };
+    if second.degree() != degree || !(0..degree).all(is_shared) {
+        return None;
+    }
+    let vertices = first.vertices().iter();
+    let vertices = vertices.chain(second.vertices().iter().skip(degree));
+    let weights = [first, second].iter().any(|it| it.is_rational()).then(|| {
+        let own = (0..first.vertices().len()).map(|it| first.weight(it));
+        let others = (degree..second.vertices().len()).map(|it| second.weight(it));
+        own.chain(others).collect()
+    });
+    FloatPolygon::new(degree, vertices.copied().collect(), weights, false).ok()
+}
+
+fn extrema_of<const N: usize>(
+    parts: [&FloatPolygon; N],
+    progress: &Progress,
+) -> Result<usize, MergeError> {
     let mut sum = 0;
     for part in parts {
         let features = Features::proved(part, |_| !progress.is_cancelled());
