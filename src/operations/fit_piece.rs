@@ -4,16 +4,25 @@ use glam::{DVec2, DVec3};
 
 use super::error::OperationError;
 use super::targets::{SHARE_OF_SIZE, place_of};
-use crate::geometry::end_correction::EndTarget;
+use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::fairing::counts::CountRequest;
+use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
 use crate::geometry::fairing::requirement::Requirement;
+use crate::geometry::features::{Feature, Features};
 use crate::geometry::fitting::{
     Extrema, FitError, Fitted, PlaneFit, corners, fit_plane, is_closed,
 };
-use crate::geometry::{End, Progress};
+use crate::geometry::{End, FloatPolygon, Progress};
 
 /// A curve with exact ends may be so many times as far off as one that crosses itself.
 const FARTHER: f64 = 1.5;
+
+/// The share of the time for a curve whose ends may cross, and how near they are then, by the size of the points.
+const FIRST: f64 = 0.8;
+const NEAR: f64 = 0.05;
+
+/// A curve that moves by no more than this share of its size to meet its ends keeps its figures.
+const ROUNDING: f64 = 1e-5;
 
 /// The pieces of points, one for each curve: all, or those between corners, where closed points begin at a corner. The
 /// corners come with them.
@@ -24,12 +33,16 @@ pub(super) fn pieces(
 ) -> (Vec<Piece>, Vec<usize>) {
     let in_space: Vec<DVec3> = points.iter().map(|point| point.extend(0.0)).collect();
     let is_closed = is_closed(&in_space);
-    let goes_round = periodic || (are_split && is_closed);
+    let goes_round = periodic || is_closed;
     let count = points.len();
-    let ring = count - usize::from(goes_round && is_closed);
-    let corners = corners(&points[..ring], goes_round);
+    let ring = count - usize::from(is_closed && count > 1);
+    let mut corners = corners(&points[..ring], goes_round);
+    if !periodic && !are_split {
+        // The curve begins and ends there.
+        corners.retain(|corner| *corner > 0);
+    }
     if !are_split || corners.is_empty() {
-        let closes = goes_round && !periodic;
+        let closes = are_split && is_closed && !periodic;
         let whole = match closes {
             true => Piece::round(ring),
             false => Piece::whole(count),
@@ -58,6 +71,14 @@ pub(super) fn features(extrema: Option<usize>, inflections: Option<usize>) -> Op
         stretch: None,
         request: CountRequest::exactly([inflections, extrema, None]),
     })
+}
+
+/// Whether the outer points are near each other, beside the size of all.
+fn are_near(points: &[DVec2]) -> bool {
+    let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+    let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    let outer = points.first().zip(points.last());
+    outer.is_some_and(|(first, last)| first.distance(*last) <= NEAR * low.distance(high))
 }
 
 /// The points of one curve.
@@ -116,11 +137,15 @@ impl Piece {
             weights: asked.weights.as_ref().map(|weights| self.of(weights)),
             ..asked.clone()
         };
-        let mut found = fit_plane(&own, &asked, progress)?;
+        // Ends that are near each other may cross: some time is kept for exact ones.
+        let may_cross = !asked.periodic && asked.exact_ends != [true; 2] && are_near(&own);
+        let share = if may_cross { FIRST } else { 1.0 };
+        let mut found = fit_plane(&own, &asked, &progress.hurried(share))?;
         let mut asked = asked;
         if found.crossing.is_some() && asked.exact_ends != [true; 2] && !asked.periodic {
             let exact = PlaneFit {
                 exact_ends: [true; 2],
+                lists_trade_off: false,
                 ..asked.clone()
             };
             let uncrossed = fit_plane(&own, &exact, progress);
@@ -130,9 +155,15 @@ impl Piece {
             // It must be about as near.
             let is_near = |it: &Fitted| it.deviation <= it.tolerance.max(FARTHER * found.deviation);
             if let Some(uncrossed) = uncrossed.filter(is_near) {
+                let trade_off = found.trade_off;
+                let uncrossed = Fitted {
+                    trade_off,
+                    ..uncrossed
+                };
                 (asked, found) = (exact, uncrossed);
             }
         }
+        found = self.with_ends(points, &asked, found, progress);
         for (outlier, _) in &mut found.outliers {
             *outlier = self.numbers[*outlier];
         }
@@ -169,6 +200,82 @@ impl Piece {
         inside.map(|(place, _)| place).collect()
     }
 
+    /// What is asked of the ends. Points that do not count are no ends.
+    fn targets(
+        &self,
+        points: &[DVec2],
+        asked: &PlaneFit,
+        polygon: &FloatPolygon,
+        counts: impl Fn(usize) -> bool,
+    ) -> Vec<(End, EndTarget)> {
+        if asked.periodic {
+            return Vec::new();
+        }
+        let mut counting = self.numbers.iter().copied().filter(|index| counts(*index));
+        let outer = [counting.next(), counting.next_back()];
+        let target = |(index, end): (usize, End)| {
+            let point = outer[index].filter(|_| asked.exact_ends[index]);
+            let point = point.and_then(|point| points.get(point));
+            let direction = asked.directions[index];
+            let curvature = asked.curvatures[index];
+            let asks = point.is_some() || direction.is_some() || curvature.is_some();
+            let target = EndTarget {
+                point: point.map_or(polygon.end_jet(end).point, |point| point.extend(0.0)),
+                direction: direction.map(|direction| direction.extend(0.0)),
+                curvature,
+                ..EndTarget::default()
+            };
+            asks.then_some((end, target))
+        };
+        let ends = End::BOTH.into_iter().enumerate();
+        ends.filter_map(target).collect()
+    }
+
+    /// Bring a fitted curve to what is asked of its ends to the last digits, if that is a matter of rounding and its
+    /// features stay.
+    fn with_ends(
+        &self,
+        points: &[DVec2],
+        asked: &PlaneFit,
+        found: Fitted,
+        progress: &Progress,
+    ) -> Fitted {
+        let polygon = &found.polygon;
+        let left_out = |index: usize| {
+            let outlier = |(own, _): &(usize, f64)| self.numbers.get(*own) == Some(&index);
+            found.outliers.iter().any(outlier)
+        };
+        let targets = self.targets(points, asked, polygon, |index| !left_out(index));
+        let size = polygon.size();
+        let is_met = |(end, target): &(End, EndTarget)| {
+            EndDifference::between(polygon, *end, target).residual(size) <= SHARE_OF_SIZE * size
+        };
+        if !found.holds || targets.iter().all(is_met) {
+            return found;
+        }
+        let order = Disturbance::Differences(3);
+        let corrected = correct_jointly(polygon, &targets, order, &[], progress);
+        let Ok(corrected) = corrected.map(|it| it.polygon) else {
+            return found;
+        };
+        let is_rounding = polygon
+            .deviation(&corrected)
+            .is_ok_and(|moved| moved <= ROUNDING * size);
+        let features = Features::proved(&corrected, |_| !progress.is_cancelled());
+        let has_same = features.is_some_and(|it| {
+            it.undecided.is_empty()
+                && it.count(Feature::CurvatureExtremum) == found.extrema
+                && it.count(Feature::Inflection) == found.inflections
+        });
+        match is_rounding && has_same {
+            true => Fitted {
+                polygon: corrected,
+                ..found
+            },
+            false => found,
+        }
+    }
+
     /// What the curve must hold: its features, its ends and the tolerance.
     pub(super) fn requirements(
         &self,
@@ -178,27 +285,12 @@ impl Piece {
     ) -> Vec<Requirement> {
         let features = features(asked.extrema.number(), asked.inflections);
         let polygon = &found.polygon;
-        let counts = |index: &usize| found.outliers.iter().all(|(outlier, _)| outlier != index);
-        let mut counting = self.numbers.iter().copied().filter(counts);
-        let outer = [counting.next(), counting.next_back()];
-        let place = |(index, end): (usize, End)| {
-            let point = outer[index].filter(|_| asked.exact_ends[index]);
-            let point = point.and_then(|point| points.get(point));
-            let [direction, curvature] = [
-                asked.directions[index].is_some(),
-                asked.curvatures[index].is_some(),
-            ];
-            let target = EndTarget {
-                point: point.map_or(polygon.end_jet(end).point, |point| point.extend(0.0)),
-                direction: asked.directions[index].map(|direction| direction.extend(0.0)),
-                curvature: asked.curvatures[index],
-                ..EndTarget::default()
-            };
-            let tolerance = SHARE_OF_SIZE * polygon.size();
-            let asks = point.is_some() || direction || curvature;
-            asks.then(|| place_of(polygon, end, target, tolerance))
-        };
-        let places = End::BOTH.into_iter().enumerate().filter_map(place);
+        let tolerance = SHARE_OF_SIZE * polygon.size();
+        let targets = self.targets(points, asked, polygon, |index| {
+            found.outliers.iter().all(|(outlier, _)| *outlier != index)
+        });
+        let places = targets.into_iter();
+        let places = places.map(|(end, target)| place_of(polygon, end, target, tolerance));
         let limit = asked.tolerance.map(|most| Requirement::Limit {
             found: found.deviation,
             most,
@@ -206,7 +298,6 @@ impl Piece {
         // Without a wish the curve is as near as the noise lets expect.
         let is_rough = asked.extrema == Extrema::Fewest && found.deviation > found.tolerance;
         let failed = (!found.holds || is_rough).then_some(Requirement::Failed { left: None });
-        let places = places.filter(|_| !asked.periodic);
         features
             .into_iter()
             .chain(places)
