@@ -561,7 +561,7 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
         if found.deviation > found.tolerance {
             let off = significant(found.deviation, 3);
             remarks.push(format!(
-                "Nothing found keeps {tolerance}, which the noise lets expect: one point is {off} off"
+                "Nothing found keeps {tolerance}, 5e-4 of the size or 3 times the noise: one point is {off} off"
             ));
         }
     }
