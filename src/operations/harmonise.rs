@@ -392,8 +392,9 @@ fn why_not(found: &Harmonised, harmony: &Harmony) -> String {
     if parts.is_empty() {
         let most = harmony.largest_deviation.unwrap_or(f64::INFINITY);
         return format!(
-            "The curve moves by up to {}, and {most} is allowed: allow more, or ask for more features",
-            rounded_up(found.deviation)
+            "The curve moves by up to {}, and {} is allowed: allow more, or ask for more features",
+            rounded_up(found.deviation),
+            significant(most, 3)
         );
     }
     format!(

@@ -34,7 +34,10 @@ fn figure_line(figure: &Figure) -> String {
         Value::Table { columns, rows } => {
             let line = |row: &Vec<f64>| {
                 let cells = columns.iter().zip(row);
-                let cells = cells.map(|(name, it)| format!("{name} {}", significant(*it, 4)));
+                let cells = cells.map(|(name, it)| match it.fract() == 0.0 {
+                    true => format!("{name} {it}"),
+                    false => format!("{name} {}", significant(*it, 4)),
+                });
                 format!("\n  {}", joined(cells))
             };
             rows.iter().map(line).collect()

@@ -37,7 +37,7 @@ impl Report {
             parts.push(format!("another shape: {} differs", level.name()));
         }
         if let Some(residual) = self.residual.filter(|it| *it > self.rounding) {
-            parts.push(format!("{} is left", significant(residual, 4)));
+            parts.push(format!("missed by {}", significant(residual, 4)));
         }
         if let Some(features) = self.features.as_ref().filter(|_| self.useful) {
             let [before, after] = [&features.before, &features.after].map(|counts| extrema(counts));

@@ -438,7 +438,7 @@ fn what_is_not_reached_is_reported_and_nothing_is_written() {
     let (out, err) = texts(&output);
     assert_eq!(output.status.code(), Some(1), "{err}");
     assert!(
-        err.contains(" is left. "),
+        err.contains("missed by "),
         "the miss is more than rounding: {err}"
     );
     assert!(
@@ -1034,7 +1034,7 @@ fn rounding_is_no_reason() {
     ];
     let (_, err) = texts(&folder.run(&arguments));
     assert!(
-        err.contains("Rounding leaves more") && !err.contains("is left"),
+        err.contains("Rounding leaves more") && !err.contains("missed by"),
         "{err}"
     );
 }

@@ -76,7 +76,7 @@ fn the_loop_stops_on_the_papers_arc_and_both_ends_at_once_correct_it() {
     assert_eq!(report.outcome, Some(Err(refusal.clone())));
     let text = refusal.to_string();
     assert!(text.contains("not reached, nothing is changed"), "{text}");
-    assert!(text.contains("is left"), "{text}");
+    assert!(text.contains("missed by"), "{text}");
     assert!(text.contains("one segment"), "{text}");
     script.end_fit_action(EndFitAction::BothAtOnce);
     let report = script.end_fit().expect("figures");

@@ -285,7 +285,7 @@ fn what_does_not_reach_its_target_is_refused_with_what_is_left() {
         refused.0.contains("not reached, nothing is changed"),
         "{refused}"
     );
-    assert!(refused.0.contains("is left"), "{refused}");
+    assert!(refused.0.contains("missed by"), "{refused}");
     check_is(&script, &before);
     assert_eq!(script.steps(), made);
     // Another method can still be chosen.
@@ -308,7 +308,7 @@ fn what_does_not_reach_its_target_is_refused_with_what_is_left() {
     check_is(&script, &before);
     // Applied at once it is refused as well, and nothing stays tried out.
     let refused = script.operate("correct-ends", &[("method", STEPS)]);
-    assert!(refused.is_err_and(|refusal| refusal.0.contains("is left")));
+    assert!(refused.is_err_and(|refusal| refusal.0.contains("missed by")));
     assert!(script.editor.operation().is_none());
     assert_eq!(script.editor.workspace().preview(), None);
     check_is(&script, &before);

@@ -220,7 +220,7 @@ fn what_is_not_reached_is_told_with_what_is_left() {
         summary.starts_with("Correct ends: not reached, nothing is changed; "),
         "{summary}"
     );
-    assert!(summary.contains(" is left. Stopped after "), "{summary}");
+    assert!(summary.contains(". Stopped after "), "{summary}");
     let json = serde_json::to_value(&report).expect("JSON");
     assert_eq!(json["reached"], false);
     assert_eq!(json["largest_move"], json!(null));
