@@ -167,9 +167,26 @@ pub static OPERATION: Operation = Operation {
         DROP_MATCH,
     ],
     check: |input| two(input).map(drop),
-    unused: |_| &[],
+    unused,
     run,
 };
+
+/// Each method has values of its own; a value of a bridge implies one.
+fn unused(values: &Values) -> &'static [&'static str] {
+    match method(values) {
+        Some(Method::Merge) => &[BRIDGE.name, MOVE_SECOND.name, CONTINUITY.name],
+        Some(Method::Bridge) => &[TOLERANCE.name, CONTINUITY.name],
+        Some(Method::Chain) => &[TOLERANCE.name, BRIDGE.name, MOVE_SECOND.name],
+        None => &[BRIDGE.name, MOVE_SECOND.name],
+    }
+}
+
+/// The method that the values ask for; `None` for the best one.
+fn method(values: &Values) -> Option<Method> {
+    let implied = values.switch(&MOVE_SECOND) || given_count(values, &BRIDGE).is_some();
+    let asked = values.choice(&METHOD, &METHODS);
+    asked.or(implied.then_some(Method::Bridge))
+}
 
 /// The two curves, if both are open and neither is locked or hidden.
 fn two(input: &Operands) -> Result<[Part<'_>; 2], OperationError> {
@@ -211,9 +228,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         tolerance: tolerance.unwrap_or(WITHIN * size),
         progress,
     };
-    let asked = values.choice(&METHOD, &METHODS);
-    let implied = moves || given_count(values, &BRIDGE).is_some();
-    match asked.or(implied.then_some(Method::Bridge)) {
+    match method(values) {
         Some(Method::Merge) => joining.merged(joining.tolerance),
         Some(Method::Bridge) => joining.bridge().map(|(outcome, _)| outcome),
         Some(Method::Chain) => joining.chained(),
@@ -352,7 +367,7 @@ impl Joining<'_> {
             Figure::count("extrema_before", "Curvature extrema of both", extrema[0]),
             Figure::count("extrema", "Curvature extrema", extrema[1]),
         ]);
-        if left.is_rational() || right.is_rational() {
+        if (left.is_rational() || right.is_rational()) && !polygon.is_rational() {
             outcome
                 .remarks
                 .push("The merged curve has no weights".to_owned());
