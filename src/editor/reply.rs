@@ -20,6 +20,8 @@ pub struct Note {
     pub text: String,
     /// Whether the message offers to undo the step.
     pub offers_undo: bool,
+    /// Whether it tells of something that the user may not want.
+    pub warns: bool,
 }
 
 impl Note {
@@ -32,7 +34,7 @@ impl Note {
     pub fn told(text: impl Into<String>) -> Self {
         Self {
             text: text.into(),
-            offers_undo: false,
+            ..Self::default()
         }
     }
 
@@ -41,6 +43,7 @@ impl Note {
         Self {
             text: text.into(),
             offers_undo: true,
+            ..Self::default()
         }
     }
 }
@@ -86,6 +89,8 @@ pub struct Message {
     pub text: String,
     /// Whether it tells of a failure.
     pub is_error: bool,
+    /// Whether it tells of something that the user may not want.
+    pub warns: bool,
     /// Whether it offers to undo the last step.
     pub offers_undo: bool,
     /// Whether it offers to reload the document's file.
@@ -97,14 +102,15 @@ pub struct Message {
 impl Message {
     /// The message of a reply; `None` for a note without a text.
     pub(in crate::editor) fn of(reply: &Reply) -> Option<Self> {
-        let (text, is_error, offers_undo) = match reply {
-            Ok(note) => (note.text.clone(), false, note.offers_undo),
-            Err(Refusal(reason)) => (reason.clone(), true, false),
+        let (note, is_error) = match reply {
+            Ok(note) => (note.clone(), false),
+            Err(Refusal(reason)) => (Note::told(reason.clone()), true),
         };
-        (!text.is_empty()).then_some(Self {
-            text,
+        (!note.text.is_empty()).then_some(Self {
+            text: note.text,
             is_error,
-            offers_undo,
+            warns: note.warns,
+            offers_undo: note.offers_undo,
             offers_reload: false,
             of_update: false,
         })
@@ -126,6 +132,7 @@ impl Message {
         Self {
             text,
             is_error: false,
+            warns: false,
             offers_undo: false,
             offers_reload: true,
             of_update: false,

@@ -57,6 +57,12 @@ pub struct LargestMove {
 }
 
 impl Report {
+    /// Whether curvature extrema are added, so that the curve is less fair.
+    pub fn adds_extrema(&self) -> bool {
+        let features = self.features.as_ref();
+        features.is_some_and(|it| it.remark_on_more().is_some())
+    }
+
     /// Find one of the operation's own figures.
     pub fn figure(&self, name: &str) -> Option<Value> {
         let mut figures = self.figures.iter();

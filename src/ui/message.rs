@@ -37,9 +37,10 @@ pub fn message_ui(
     let place = (Align2::LEFT_BOTTOM, corner);
     let dismissed = widgets::overlay(context, "message", place, |ui| {
         let tokens = Tokens::of(ui);
-        let (icon, colour, outline) = match message.is_error {
-            true => (Icon::TriangleAlert, tokens.error, tokens.error),
-            false => (Icon::Info, tokens.faint_text, tokens.outline),
+        let (icon, colour, outline) = match (message.is_error, message.warns) {
+            (true, _) => (Icon::TriangleAlert, tokens.error, tokens.error),
+            (false, true) => (Icon::TriangleAlert, tokens.warning, tokens.outline),
+            (false, false) => (Icon::Info, tokens.faint_text, tokens.outline),
         };
         let frame = Frame::popup(ui.style()).stroke(Stroke::new(1.0, outline));
         let shown = frame.inner_margin(2.0 * STEP).show(ui, |ui| {

@@ -507,7 +507,10 @@ impl Operating<'_> {
     /// The reply that tells of the last run.
     fn reply(&self) -> Reply {
         match self.operations.operation.as_ref().and_then(|it| it.run()) {
-            Some(Ok(run)) if run.succeeds() => Ok(Note::done(run.report.summary())),
+            Some(Ok(run)) if run.succeeds() => Ok(Note {
+                warns: run.report.adds_extrema(),
+                ..Note::done(run.report.summary())
+            }),
             Some(Ok(run)) => Err(Refusal(run.report.summary())),
             Some(Err(error)) => Err(Refusal(error.to_string())),
             None => Ok(Note::silent()),
