@@ -214,45 +214,41 @@ fn closed_ui(ui: &mut Ui, is_closed: bool) -> Option<EndFitAction> {
     action
 }
 
+/// Show the difference, always in as many rows.
 fn difference_ui(ui: &mut Ui, report: &EndFitReport) {
-    let Some(target) = report.target else {
-        widgets::note(ui, "Set a target first.");
-        return;
-    };
-    let d = report.difference;
     let noise = report.noise;
     let plain = |value: f64| figures::significant(value, 6);
     let length = |value| document_unit::length(ui.ctx(), plain(value));
     let length = |value| above_noise(value, noise.length, length);
-    let mut pairs = vec![("Δx", length(d.x)), ("Δy", length(d.y))];
+    let d = report.target.map(|_| report.difference);
+    let mut pairs = vec![
+        ("Δx", d.map(|d| length(d.x))),
+        ("Δy", d.map(|d| length(d.y))),
+    ];
     if !report.planar {
-        pairs.push(("Δz", length(d.z)));
+        pairs.push(("Δz", d.map(|d| length(d.z))));
     }
-    pairs.push(("Length", length(d.length())));
-    pairs.push(("Angle", above_noise(report.angle, noise.angle, angle)));
-    if let Some(missing) = report.missing {
-        let asked = [
-            (
-                "Δκ",
-                target
-                    .curvature
-                    .map(|_| above_noise(missing.curvature, noise.curvature, plain)),
-            ),
-            (
-                "Plane",
-                target
-                    .normal
-                    .map(|_| above_noise(missing.plane, noise.angle, angle)),
-            ),
-            (
-                "Δdκ/ds",
-                target
-                    .slope
-                    .map(|_| above_noise(missing.slope, noise.slope, plain)),
-            ),
-        ];
-        pairs.extend(asked.into_iter().filter_map(|(name, it)| Some((name, it?))));
+    pairs.push(("Length", d.map(|d| length(d.length()))));
+    let turn = d.map(|_| above_noise(report.angle, noise.angle, angle));
+    pairs.push(("Angle", turn));
+    let asked = report.target.zip(report.missing);
+    let curvature = asked.filter(|(target, _)| target.curvature.is_some());
+    let curvature =
+        curvature.map(|(_, missing)| above_noise(missing.curvature, noise.curvature, plain));
+    pairs.push(("Δκ", curvature));
+    if !report.planar {
+        let plane = asked.filter(|(target, _)| target.normal.is_some());
+        let plane = plane.map(|(_, missing)| above_noise(missing.plane, noise.angle, angle));
+        pairs.push(("Plane", plane));
     }
+    let slope = asked.filter(|(target, _)| target.slope.is_some());
+    let slope = slope.map(|(_, missing)| above_noise(missing.slope, noise.slope, plain));
+    pairs.push(("Δdκ/ds", slope));
+    let none = || ("–".to_owned(), None);
+    let pairs: Vec<_> = pairs
+        .into_iter()
+        .map(|(name, it)| (name, it.unwrap_or_else(none)))
+        .collect();
     widgets::figure_pairs(ui, &pairs);
 }
 
@@ -344,7 +340,13 @@ fn overlap_ui(ui: &mut Ui, overlap: EndOverlap) {
 fn outcome_ui(ui: &mut Ui, report: &EndFitReport) {
     let tokens = Tokens::of(ui);
     let (text, icon, colour) = match &report.outcome {
+        None if report.target.is_none() => {
+            let text = "No target yet: click its place on the canvas, or “Use current end”.";
+            widgets::note(ui, text);
+            return;
+        }
         None => return,
+        Some(Ok(note)) if note.warns => (&note.text, Icon::TriangleAlert, tokens.warning),
         Some(Ok(note)) => (&note.text, Icon::Check, tokens.good),
         Some(Err(Refusal(reason))) => (reason, Icon::TriangleAlert, tokens.error),
     };

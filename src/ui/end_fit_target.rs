@@ -138,29 +138,32 @@ fn now_ui(ui: &mut Ui, actual: &str) -> Response {
 /// Show the end as it is, and its target.
 pub fn target_ui(ui: &mut Ui, report: &EndFitReport, pixel: f64) -> Option<Event> {
     actual_ui(ui, report, pixel);
+    // Without a target the fields show the end as it is, so that nothing moves when there is one.
+    let target = report.target.unwrap_or(EndTarget {
+        curvature: None,
+        normal: None,
+        slope: None,
+        ..report.actual
+    });
     let mut event = None;
-    if let Some(target) = report.target {
-        // The source sets a matched end's target.
-        ui.add_enabled_ui(report.matched.is_none(), |ui| {
-            let axes = if report.planar { 2 } else { 3 };
-            let place = vector_row(
-                ui,
-                ("Target", "target"),
-                axes,
-                target.point,
-                |name, value| {
-                    NumberField::new(name, value, figures::to_resolution(value, 0.01 * pixel))
-                        .speed(pixel)
-                        .quantity(Quantity::Length)
-                },
-            );
-            let place = place.map(|event| event.map(EndFitAction::SetPoint));
-            event = conditions_ui(ui, report, &target).or(place);
-        });
-    } else {
-        let text = "No target yet: click the place on the canvas, or set one here.";
-        widgets::note(ui, text);
-    }
+    // The source sets a matched end's target.
+    let is_own = report.target.is_some() && report.matched.is_none();
+    ui.add_enabled_ui(is_own, |ui| {
+        let axes = if report.planar { 2 } else { 3 };
+        let place = vector_row(
+            ui,
+            ("Target", "target"),
+            axes,
+            target.point,
+            |name, value| {
+                NumberField::new(name, value, figures::to_resolution(value, 0.01 * pixel))
+                    .speed(pixel)
+                    .quantity(Quantity::Length)
+            },
+        );
+        let place = place.map(|event| event.map(EndFitAction::SetPoint));
+        event = conditions_ui(ui, report, &target).or(place);
+    });
     let buttons = ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         let actual = ui.add_enabled(report.matched.is_none(), Button::new("Use current end"));
