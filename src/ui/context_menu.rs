@@ -5,10 +5,10 @@ use eframe::egui::{
 };
 
 use super::action::Action;
-use super::menu::{Entry, command, compare, entries_ui, references};
+use super::menu::{Entry, command, compare, entries_ui, layers, references, views};
 use super::menu_item::WIDTH;
 use super::shell::Shell;
-use crate::editor::{Command, Editor, Follow, Layer, MenuSubject, NamedView, ToolKind};
+use crate::editor::{Command, Editor, Follow, Layer, MenuSubject, ToolKind};
 use crate::operations::{self, Inputs, Operation};
 
 /// The open context menu.
@@ -87,7 +87,6 @@ fn operation(operation: &'static Operation) -> Entry {
 /// The entries of a subject.
 fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
     use Entry::Divider;
-    let views = NamedView::ALL.map(|view| command(Command::View(view)));
     match subject {
         MenuSubject::Vertex | MenuSubject::Leg => vec![
             command(Command::Delete),
@@ -169,8 +168,8 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
             command(Command::SelectNone),
             Divider,
             command(Command::FitAll),
-            Entry::Submenu("View from", views.into()),
-            Entry::Submenu("Layers", Layer::ALL.map(layer).into()),
+            views(),
+            Entry::Submenu("Layers", layers()),
             command(Command::ToggleSnapping),
         ],
         MenuSubject::Feature => vec![

@@ -124,6 +124,52 @@ pub fn compare(editor: &Editor) -> Entry {
     Entry::Submenu("Compare with", compare.map(command).collect())
 }
 
+/// The layers, as a menu of their own.
+pub fn layers() -> Vec<Entry> {
+    let layers = Layer::ALL.map(|layer| command(Command::ToggleLayer(layer)));
+    let layers = layers.into_iter();
+    layers.chain([command(Command::ToggleBands)]).collect()
+}
+
+/// The named views, in a menu of their own.
+pub fn views() -> Entry {
+    let views = NamedView::ALL.map(|view| command(Command::View(view)));
+    Entry::Submenu("View from", views.into())
+}
+
+/// Operations that have a menu of their own, by their names.
+const GROUPS: [(&str, &[&str]); 3] = [
+    (
+        "Vertices and degree",
+        &[
+            "refine",
+            "subdivide",
+            "elevate-degree",
+            "reduce-degree",
+            "reinterpret-degree",
+            "round",
+        ],
+    ),
+    (
+        "Cut and join",
+        &["join", "close", "trim", "split", "extend"],
+    ),
+    ("Ends", &["correct-ends", "translate-end", "rotate-end"]),
+];
+
+/// The operations: groups in menus of their own, and the others.
+fn operations() -> Vec<Entry> {
+    let entry = |operation| command(Command::Operation(operation));
+    let groups = GROUPS.map(|(title, names)| {
+        let operations = names.iter().filter_map(|name| operations::find(name));
+        Entry::Submenu(title, operations.map(entry).collect())
+    });
+    let is_grouped = |name: &str| GROUPS.iter().any(|(_, names)| names.contains(&name));
+    let others = operations::ALL.iter().copied();
+    let others = others.filter(|operation| !is_grouped(operation.name));
+    groups.into_iter().chain(others.map(entry)).collect()
+}
+
 fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
     let mut file = vec![
         Item(Action::New),
@@ -136,12 +182,13 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         Item(Action::Reload),
         Divider,
     ];
-    file.extend(
-        formats::exporters()
-            .into_iter()
-            .map(|exporter| Item(Action::Export(exporter))),
-    );
-    file.extend([Divider, Item(Action::Quit)]);
+    let exporters = formats::exporters().into_iter();
+    let exports = exporters.map(|exporter| Item(Action::Export(exporter)));
+    file.extend([
+        Entry::Submenu("Export", exports.collect()),
+        Divider,
+        Item(Action::Quit),
+    ]);
     let edit = vec![
         command(Command::Undo),
         command(Command::Redo),
@@ -174,8 +221,7 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         command(Command::TogglePeriodic),
         Divider,
     ];
-    let operations = operations::ALL.iter().copied();
-    curve.extend(operations.map(|operation| command(Command::Operation(operation))));
+    curve.extend(operations());
     curve.extend([
         Divider,
         command(Command::ToggleVisible),
@@ -188,13 +234,11 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         command(Command::ZoomOut),
         Divider,
     ];
-    view.extend(Layer::ALL.map(|layer| command(Command::ToggleLayer(layer))));
-    view.push(command(Command::ToggleBands));
+    view.push(Entry::Submenu("Layers", layers()));
     let displays = CurvatureDisplay::ALL.map(|display| command(Command::ShowCurvature(display)));
     view.push(Entry::Submenu("Show curvature", displays.into()));
-    view.push(Divider);
-    view.extend(NamedView::ALL.map(|view| command(Command::View(view))));
     view.extend([
+        views(),
         Divider,
         command(Command::ResetComb),
         Divider,

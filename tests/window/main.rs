@@ -99,7 +99,7 @@ fn the_main_job_through_the_window() {
     assert_eq!(saved[0].polygon, dragged.polygon, "numbers survive exactly");
 
     let path = folder.path().join("dragged.dxf");
-    choose(&mut window, &["File", "Export DXF…"]);
+    choose(&mut window, &["File", "Export", "Export DXF…"]);
     answer(&mut window, &path);
     let drawing = std::fs::read_to_string(&path).expect("the export");
     assert!(drawing.contains("SPLINE"));

@@ -173,6 +173,7 @@ fn what_elevating_the_degree_costs_stands_beside_it() {
     let entry = format!("Elevate degree… {told}");
     assert!(!has(&window, &entry));
     open_curve_menu(&mut window);
+    click(&mut window, "Vertices and degree");
     assert!(has(&window, &entry), "{entry}");
     press(&mut window, Modifiers::NONE, Key::Escape);
     let at = place(&window, before.jet(1.5).point.truncate());
