@@ -214,13 +214,20 @@ fn buttons_ui(
     progress: Option<f64>,
 ) -> Option<PanelAction> {
     let mut action = None;
-    let enabled = match in_progress.run() {
-        None => true,
-        Some(run) => run.as_ref().is_ok_and(|run| run.outcome.is_useful()),
+    let (enabled, reached) = match in_progress.run() {
+        None => (true, true),
+        Some(Ok(run)) => {
+            let is_useful = run.outcome.is_useful();
+            (is_useful, run.report.reached || !is_useful)
+        }
+        Some(Err(_)) => (false, true),
     };
     ui.horizontal_centered(|ui| {
         if !in_progress.is_applied() {
-            let apply = ui.add_enabled_ui(enabled, |ui| widgets::primary_button(ui, "Apply"));
+            let apply = ui.add_enabled_ui(enabled, |ui| match reached {
+                true => widgets::primary_button(ui, "Apply"),
+                false => ui.button("Apply anyway"),
+            });
             if apply.inner.on_hover_text("Enter").clicked() {
                 action = Some(PanelAction::Apply);
             }
