@@ -15,7 +15,8 @@ impl Editor {
     /// Begin an empty document.
     pub fn begin_empty(&mut self) {
         self.message = None;
-        self.replace(Document::default(), None);
+        let unit = self.document().unit();
+        self.replace(Document::default().with_unit(unit), None);
     }
 
     /// Open files as one document in place of the present one; none leaves it as it is. Only a

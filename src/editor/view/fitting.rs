@@ -71,9 +71,12 @@ impl View {
     pub(super) fn bring_into_sight(&mut self, new: &[CurveId], shown: Shown<'_>) {
         self.analyse(shown.document());
         let seen = self.viewport.view_box();
+        // The curve alone: the view stays where a polygon goes beyond the points that were drawn.
         let is_hidden = |id: &CurveId| {
-            let bounds = self.bounds_of(*id, shown);
-            bounds.low.cmplt(seen.low).any() || bounds.high.cmpgt(seen.high).any()
+            let bounds = self.outlines.get(*id).map(|it| it.curve.bounds());
+            let is_outside =
+                |it: Bounds| it.low.cmplt(seen.low).any() || it.high.cmpgt(seen.high).any();
+            bounds.is_some_and(is_outside)
         };
         if new.iter().any(is_hidden) {
             self.fit_all(shown);
