@@ -163,7 +163,9 @@ impl<'a> Change<'a> {
             Dragged::Point(u, _) => change.weights = JetWeights::at(polygon, *u).of_value(),
         }
         let levers = 1..polygon.degree();
-        let mut distances = End::BOTH.into_iter().filter_map(|end| change.held_from(end));
+        let mut distances = End::BOTH
+            .into_iter()
+            .filter_map(|end| change.held_from(end));
         if !polygon.is_periodic() && distances.any(|distance| levers.contains(&distance)) {
             change.stiffness = change.stiffness.max(LEVER_STIFFNESS);
         }
