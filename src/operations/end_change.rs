@@ -3,7 +3,7 @@
 use super::error::OperationError;
 use crate::document::Curve;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
-use crate::geometry::{BezierPolygon, End, FloatPolygon, significant};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, curve_crossing, significant};
 
 /// A curve that moves more than so many times as far as its ends has changed as a whole. Spreading a
 /// correction evenly over the polygon stays below.
@@ -28,7 +28,7 @@ pub(super) fn remarks_on_change(
 ) -> Result<Vec<String>, OperationError> {
     let before = &curve.polygon;
     let mut remarks = Vec::new();
-    let advice = "lock the vertices that are to stay with “Also hold vertices” (--locked)";
+    let advice = "refine first, or hold vertices with “Also hold vertices” (--locked)";
     if let Some([moved, shift]) = moved_far(curve, after)? {
         let [moved, shift] = [moved, shift].map(|length| significant(length, 3));
         remarks.push(format!(
@@ -37,6 +37,14 @@ pub(super) fn remarks_on_change(
     }
     if let Some(turned) = turned {
         remarks.push(format!("{turned}: {advice}, or turn the target direction"));
+    }
+    let crosses = |polygon: &FloatPolygon| {
+        let planar = Some(polygon).filter(|it| it.is_planar());
+        planar.and_then(curve_crossing)
+    };
+    if let (Some(at), None) = (crosses(after), crosses(before)) {
+        let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));
+        remarks.push(format!("The curve crosses itself now, at {x}, {y}: {advice}"));
     }
     if before.is_planar() && !after.is_planar() {
         remarks.push(
