@@ -7,6 +7,7 @@ use clap::{CommandFactory, Error, Parser, Subcommand};
 
 use super::apply::Application;
 use super::apply_arguments::{ApplyArguments, Given};
+use super::convert::Lowering;
 use super::ends::{Destination, Source};
 use super::list::Listed;
 use super::many_files::ManyFiles;
@@ -93,6 +94,15 @@ enum Command {
         /// The unit of a file that states none
         #[arg(long, value_name = "UNIT", value_parser = unit_parser())]
         assume_unit: Option<LengthUnit>,
+        /// The highest degree that is written: curves of a higher one are approximated
+        ///
+        /// How far each of them moves, and the number of its vertices, are told on stderr. Features stay
+        /// where that is possible.
+        #[arg(long, value_name = "DEGREE", value_parser = clap::value_parser!(u8).range(1..=25))]
+        degree_at_most: Option<u8>,
+        /// How far curves may move that get a lower degree; without it 1e-4 of their size
+        #[arg(long, value_name = "LENGTH", value_parser = tolerance, requires = "degree_at_most")]
+        tolerance: Option<f64>,
         /// Write a polygon even if it cannot be read back as the curve
         #[arg(long)]
         force: bool,
@@ -197,6 +207,8 @@ pub(super) enum Task {
         polygon: Option<PolygonKind>,
         /// The unit of what states none.
         assumed_unit: Option<LengthUnit>,
+        /// The highest degree, and how far curves may move that get it.
+        lowering: Option<Lowering>,
         /// Whether to write what cannot be read back.
         force: bool,
     },
@@ -261,12 +273,18 @@ impl Arguments {
                 to_format,
                 polygon,
                 assume_unit,
+                degree_at_most,
+                tolerance,
                 force,
             }) => Task::Convert {
                 source: source("convert", input, from_format, columns)?,
                 destination: destination("convert", out, to_format)?,
                 polygon,
                 assumed_unit: assume_unit,
+                lowering: degree_at_most.map(|most| Lowering {
+                    most: usize::from(most),
+                    tolerance,
+                }),
                 force,
             },
             Some(Command::Points {

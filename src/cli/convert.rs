@@ -3,12 +3,44 @@
 use anyhow::{Context, bail};
 
 use super::ends::{Destination, Source};
-use super::output::Messages;
-use crate::document::Document;
-use crate::geometry::PolygonKind;
+use super::output::{self, Messages};
+use crate::document::{Document, quoted};
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::{PolygonKind, Progress, counted, rounded_up};
 use crate::io::examples::Example;
 use crate::io::{Export, Format};
+use crate::operations::lowered;
+
+/// Which degrees are lowered.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lowering {
+    /// The highest degree that is written.
+    pub(super) most: usize,
+    /// How far curves may move.
+    pub(super) tolerance: Option<f64>,
+}
+
+impl Lowering {
+    /// Approximate the curves of higher degrees, and tell how far each of them moves.
+    fn of(self, document: &Document) -> anyhow::Result<Document> {
+        let Self { most, tolerance } = self;
+        let (lower, told) = lowered(document, most, tolerance, &Progress::default())?;
+        for it in told {
+            let within = match it.is_within {
+                true => "",
+                false => ", which is more than the tolerance",
+            };
+            output::message(&format!(
+                "{}: degree {} becomes {most}, {}, off by at most {}{within}",
+                quoted(&it.name),
+                it.degree,
+                counted(it.vertices, "vertex", "vertices"),
+                rounded_up(it.deviation),
+            ));
+        }
+        Ok(lower)
+    }
+}
 
 /// Write the curves of a source. What cannot be read back is refused without `force`.
 ///
@@ -19,6 +51,7 @@ pub(super) fn convert(
     destination: &Destination,
     polygon: Option<PolygonKind>,
     assumed_unit: Option<LengthUnit>,
+    lowering: Option<Lowering>,
     force: bool,
 ) -> anyhow::Result<()> {
     if destination.is(source) {
@@ -28,6 +61,10 @@ pub(super) fn convert(
         );
     }
     let document = source.document(assumed_unit, &Messages::Printed)?;
+    let document = match lowering {
+        Some(lowering) => lowering.of(&document).with_context(|| source.name())?,
+        None => document,
+    };
     let (export, format) = exported(&document, destination, polygon)?;
     // A float polygon is read back as it is.
     let is_converted = polygon.is_some_and(|kind| kind != PolygonKind::Float);

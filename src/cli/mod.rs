@@ -55,8 +55,16 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
             destination,
             polygon,
             assumed_unit,
+            lowering,
             force,
-        }) => convert::convert(&source, &destination, polygon, assumed_unit, force),
+        }) => convert::convert(
+            &source,
+            &destination,
+            polygon,
+            assumed_unit,
+            lowering,
+            force,
+        ),
         Ok(Task::Operations) => apply::list(),
         Ok(Task::References) => references::list(),
         Ok(Task::Apply(application)) => {

@@ -90,7 +90,7 @@ pub(super) fn refitted(
     let own = Shape::of(polygon, progress)?;
     let found = match goal.segments {
         Some(segments) => polygon.refitted(goal.degree, segments)?,
-        None => fewest(polygon, goal, &own, progress)?,
+        None => fewest(polygon, goal, progress)?,
     };
     let vertices = found.polygon.vertices().len();
     let limit = goal.tolerance.map(|most| Requirement::Limit {
@@ -150,12 +150,12 @@ impl Shape {
 }
 
 /// The curve with the fewest segments that keeps the tolerance and the features, or the nearest tried.
-fn fewest(
+pub(super) fn fewest(
     polygon: &FloatPolygon,
     goal: &Goal,
-    own: &Shape,
     progress: &Progress,
 ) -> Result<Approximation, OperationError> {
+    let own = Shape::of(polygon, progress)?;
     let tolerance = goal.tolerance.unwrap_or(f64::INFINITY);
     let mut missed = goal.least.saturating_sub(1);
     let mut found = polygon.refitted(goal.degree, goal.least)?;
@@ -186,7 +186,7 @@ fn fewest(
         }
     }
     let kept = found.clone();
-    while Shape::of(&found.polygon, progress)? != *own {
+    while Shape::of(&found.polygon, progress)? != own {
         let segments = found.polygon.segments();
         let grown = (segments + 1).max((GROWTH * segments as f64).round() as usize);
         // Halved segments give the curve itself, and so its features.

@@ -44,7 +44,9 @@ pub(super) fn remarks_on_change(
     };
     if let (Some(at), None) = (crosses(after), crosses(before)) {
         let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));
-        remarks.push(format!("The curve crosses itself now, at {x}, {y}: {advice}"));
+        remarks.push(format!(
+            "The curve crosses itself now, at {x}, {y}: {advice}"
+        ));
     }
     if before.is_planar() && !after.is_planar() {
         remarks.push(

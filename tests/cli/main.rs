@@ -179,6 +179,55 @@ fn convert_lists_what_is_lost() {
 }
 
 #[test]
+fn degrees_are_lowered_within_a_tolerance_that_is_measured() {
+    let folder = Folder::new();
+    folder.done(&["example", "arc", "a.batten"]);
+    let before = folder.inspect(&["a.batten"])["curves"][0].clone();
+    assert_eq!(before["degree"], 9);
+    let lower = |out: &str, more: &[&str]| {
+        let arguments = [&["convert", "a.batten", out, "--degree-at-most", "3"], more].concat();
+        let (_, err) = folder.done(&arguments);
+        assert!(
+            err.starts_with("batten: “arc”: degree 9 becomes 3, "),
+            "{err}"
+        );
+        let after = folder.inspect(&[out])["curves"][0].clone();
+        assert_eq!(after["degree"], 3);
+        for quantity in ["inflections", "curvature_extrema"] {
+            let count = |curve: &Value| curve["features"][quantity].as_array().map(Vec::len);
+            assert_eq!(count(&after), count(&before), "{quantity}");
+        }
+        after["float"].as_array().expect("vertices").len()
+    };
+    let [coarse, fine] =
+        ["1e-2", "1e-6"].map(|tolerance| lower("b.batten", &["--tolerance", tolerance]));
+    assert!(coarse < fine, "{coarse} and {fine} vertices");
+    lower("b.step", &[]);
+    // The parameter runs as evenly along both curves.
+    let at = |file: &str, u: f64| {
+        let found = folder.inspect(&[file, "--at", &u.to_string()]);
+        let point = &found["curves"][0]["at"][0]["point"];
+        [0, 1].map(|axis| point[axis].as_f64().expect("a number"))
+    };
+    lower("c.batten", &["--tolerance", "1e-4"]);
+    let domain = |file: &str| folder.inspect(&[file])["curves"][0]["domain"][1].as_f64();
+    let [one, other] = ["a.batten", "c.batten"].map(|file| domain(file).expect("an end"));
+    for place in 0..=10 {
+        let share = f64::from(place) / 10.0;
+        let [p, q] = [at("a.batten", share * one), at("c.batten", share * other)];
+        let off = (p[0] - q[0]).hypot(p[1] - q[1]);
+        assert!(off <= 1e-4, "{share}: {off}");
+    }
+    // A degree that is low enough stays.
+    let (_, err) = folder.done(&["convert", "a.batten", "d.step", "--degree-at-most", "9"]);
+    assert!(!err.contains("becomes"), "{err}");
+    folder.misused(
+        &["convert", "a.batten", "d.dxf", "--tolerance", "1"],
+        "--degree-at-most",
+    );
+}
+
+#[test]
 fn unknown_keys_are_told_and_kept() {
     let curve =
         json!([{"name": "a", "degree": 1, "vertices": [[0, 0], [1, 1]], "weigths": [1, 2]}]);

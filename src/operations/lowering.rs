@@ -1,0 +1,74 @@
+//! Curves of a lower degree, for programs that hold no higher one.
+
+use super::degree::{Goal, fewest};
+use super::error::OperationError;
+use crate::document::{Curve, Document};
+use crate::geometry::{BezierPolygon, Progress};
+
+/// The tolerance without a wish, in units of a curve's size.
+const WITHIN: f64 = 1e-4;
+
+/// A curve that got a lower degree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lowered {
+    /// The curve's name.
+    pub name: String,
+    /// The degree before.
+    pub degree: usize,
+    /// The number of vertices now.
+    pub vertices: usize,
+    /// A bound of how far it moves.
+    pub deviation: f64,
+    /// Whether that is within the tolerance.
+    pub is_within: bool,
+}
+
+/// Give all curves of a higher degree than `most` that degree, with the fewest vertices within a tolerance (without one
+/// 1e-4 of a curve's size) that keep its features where that is possible.
+///
+/// The result is a copy to export: it has the curves and references, their attributes and the unit, and no matches.
+///
+/// # Errors
+/// [`OperationError`] if the degree is 0, or `progress` is cancelled.
+pub fn lowered(
+    document: &Document,
+    most: usize,
+    tolerance: Option<f64>,
+    progress: &Progress,
+) -> Result<(Document, Vec<Lowered>), OperationError> {
+    let mut told = Vec::new();
+    let mut curves = Vec::new();
+    for (_, curve) in document.curves() {
+        let mut copy = Curve::clone(curve);
+        let polygon = &curve.polygon;
+        if polygon.degree() > most {
+            let size = BezierPolygon::from_float(polygon).size();
+            let tolerance = tolerance.unwrap_or(WITHIN * size);
+            let goal = Goal {
+                degree: most,
+                segments: None,
+                least: polygon.segments(),
+                tolerance: Some(tolerance),
+            };
+            let found = fewest(polygon, &goal, progress)?;
+            told.push(Lowered {
+                name: curve.name.clone(),
+                degree: polygon.degree(),
+                vertices: found.polygon.vertices().len(),
+                deviation: found.deviation,
+                is_within: found.deviation <= tolerance,
+            });
+            copy = Curve {
+                colour: copy.colour,
+                visible: copy.visible,
+                locked: copy.locked,
+                ..Curve::new(copy.name, found.polygon)
+            };
+        }
+        curves.push(copy);
+    }
+    let references = document.references();
+    let references = references.map(|(_, it)| it.as_ref().clone());
+    let lowered = Document::from_curves(curves).with_references(references);
+    Ok((lowered.with_unit(document.unit()), told))
+}
