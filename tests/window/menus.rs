@@ -49,6 +49,12 @@ fn open_curve_menu(window: &mut Window) {
     window.run();
 }
 
+/// Open the menu of operations on vertices and degree.
+fn open_degree_menu(window: &mut Window) {
+    open_curve_menu(window);
+    click(window, "Vertices and degree");
+}
+
 /// Choose an entry of the menu: it is shown above everything else of that name.
 fn pick(window: &mut Window, label: &str) {
     let entries: Vec<Pos2> = window
@@ -172,8 +178,7 @@ fn what_elevating_the_degree_costs_stands_beside_it() {
     let told = format!("± {}", rounded_up(elevated.deviation));
     let entry = format!("Elevate degree… {told}");
     assert!(!has(&window, &entry));
-    open_curve_menu(&mut window);
-    click(&mut window, "Vertices and degree");
+    open_degree_menu(&mut window);
     assert!(has(&window, &entry), "{entry}");
     press(&mut window, Modifiers::NONE, Key::Escape);
     let at = place(&window, before.jet(1.5).point.truncate());
@@ -195,18 +200,18 @@ fn what_elevating_the_degree_costs_stands_beside_it() {
     drag(&mut window, from, from + vec2(0.0, 20.0));
     let moved = curve(&window).polygon;
     let elevated = moved.with_degree(moved.degree() + 1).expect("a curve");
-    open_curve_menu(&mut window);
+    open_degree_menu(&mut window);
     let told = format!("± {} mm", rounded_up(elevated.deviation));
     assert!(has(&window, &format!("Elevate degree… {told}")));
     press(&mut window, Modifiers::NONE, Key::Escape);
 
     choose(&mut window, &["File", "Examples", "Ninth-degree arc"]);
     click(&mut window, "Discard");
-    open_curve_menu(&mut window);
+    open_degree_menu(&mut window);
     assert!(has(&window, "Elevate degree… exact"));
     press(&mut window, Modifiers::NONE, Key::Escape);
     click(&mut window, "Locked");
-    open_curve_menu(&mut window);
+    open_degree_menu(&mut window);
     assert!(has(&window, "Elevate degree…"));
 }
 
