@@ -103,6 +103,12 @@ enum Command {
         /// How far curves may move that get a lower degree; without it 1e-4 of their size
         #[arg(long, value_name = "LENGTH", value_parser = tolerance, requires = "degree_at_most")]
         tolerance: Option<f64>,
+        /// Write so many points on the curve, not its vertices, as `points` does
+        #[arg(long, value_name = "N", value_parser = count, conflicts_with_all = ["polygon", "degree_at_most"])]
+        points: Option<usize>,
+        /// Write as few points on the curve as keep the polyline through them this near to it
+        #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with_all = ["points", "polygon", "degree_at_most"])]
+        chord: Option<f64>,
         /// Write a polygon even if it cannot be read back as the curve
         #[arg(long)]
         force: bool,
@@ -275,18 +281,33 @@ impl Arguments {
                 assume_unit,
                 degree_at_most,
                 tolerance,
+                points,
+                chord,
                 force,
-            }) => Task::Convert {
-                source: source("convert", input, from_format, columns)?,
-                destination: destination("convert", out, to_format)?,
-                polygon,
-                assumed_unit: assume_unit,
-                lowering: degree_at_most.map(|most| Lowering {
-                    most: usize::from(most),
-                    tolerance,
-                }),
-                force,
-            },
+            }) => {
+                let source = source("convert", input, from_format, columns)?;
+                let destination = destination("convert", out, to_format)?;
+                let density = points.map(|count| Density::Count(count, Spacing::ArcLength));
+                match density.or(chord.map(Density::Tolerance)) {
+                    Some(density) => Task::Points {
+                        source,
+                        destination,
+                        density,
+                        curve: None,
+                    },
+                    None => Task::Convert {
+                        source,
+                        destination,
+                        polygon,
+                        assumed_unit: assume_unit,
+                        lowering: degree_at_most.map(|most| Lowering {
+                            most: usize::from(most),
+                            tolerance,
+                        }),
+                        force,
+                    },
+                }
+            }
             Some(Command::Points {
                 input,
                 out,

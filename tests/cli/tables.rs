@@ -319,6 +319,34 @@ fn a_section_goes_back_to_its_solver() {
 }
 
 #[test]
+fn convert_writes_the_same_points() {
+    let folder = Folder::new();
+    folder.done(&["example", "arc", "arc.batten"]);
+    for (count, tolerance, name) in [
+        (["--count", "9"], ["--points", "9"], "dat"),
+        (["--tolerance", "1e-3"], ["--chord", "1e-3"], "csv"),
+    ] {
+        let [one, other] = ["a", "b"].map(|it| format!("{it}.{name}"));
+        folder.done(&[&["points", "arc.batten", &one], &count[..]].concat());
+        folder.done(&[&["convert", "arc.batten", &other], &tolerance[..]].concat());
+        let [one, other] = [one, other].map(|it| fs::read_to_string(folder.path(&it)).unwrap());
+        assert_eq!(one, other);
+    }
+    folder.misused(
+        &[
+            "convert",
+            "arc.batten",
+            "b.csv",
+            "--points",
+            "9",
+            "--chord",
+            "1",
+        ],
+        "cannot be used with",
+    );
+}
+
+#[test]
 fn points_need_a_number_or_a_tolerance_and_one_curve() {
     let line =
         |name: &str, y: f64| json!({"name": name, "degree": 1, "vertices": [[0, 0], [1, y]]});
