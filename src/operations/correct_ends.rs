@@ -21,6 +21,7 @@ use crate::document::{Curve, CurveId, EditError};
 use crate::geometry::end_correction::{EndOverlap, EndTarget, correct_in_turn};
 use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, correct_jointly};
 use crate::geometry::fairing::requirement::{Check, Requirement};
+use crate::geometry::features::{Feature, Features};
 use crate::geometry::parameters::{Number, Quantity};
 use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
 
@@ -72,6 +73,9 @@ const DISTURBANCES: [Option<Disturbance>; 6] = [
 /// Automatic, the curve itself moves least where it moves no more than this share of the way that it goes if the
 /// vertices move least, and that is far.
 const LESS: f64 = 0.5;
+
+/// Automatic, a correction with fewer curvature extrema may move the curve so many times as far as one with more.
+const HARDLY_FARTHER: f64 = 1.2;
 
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
@@ -440,6 +444,14 @@ fn at_once(
     if let Some(disturbance) = values.choice(&ORDER, &DISTURBANCES) {
         return least(disturbance);
     }
+    fairest(curve, nearest(curve, &least)?, &least, progress)
+}
+
+/// Correct with the smallest moves of vertices, or of the curve where those take it far.
+fn nearest(
+    curve: &Curve,
+    least: &dyn Fn(Disturbance) -> Result<Correction, OperationError>,
+) -> Result<Correction, OperationError> {
     let by_vertices = least(Disturbance::Differences(1))?;
     let most = match &by_vertices.polygon {
         Some(polygon) if turned_over(&curve.polygon, polygon).is_some() => f64::INFINITY,
@@ -463,6 +475,43 @@ fn at_once(
         },
         false => by_vertices,
     })
+}
+
+/// Of corrections that move the curve hardly farther than a given one take that with the fewest curvature extrema: the
+/// smallest differences of higher orders bend it less.
+fn fairest(
+    curve: &Curve,
+    nearest: Correction,
+    least: &dyn Fn(Disturbance) -> Result<Correction, OperationError>,
+    progress: &Progress,
+) -> Result<Correction, OperationError> {
+    let extrema = |polygon: &FloatPolygon| {
+        let features = Features::proved(polygon, |_| !progress.is_cancelled());
+        let features = features.ok_or(OperationError::Cancelled)?;
+        Ok::<usize, OperationError>(features.count(Feature::CurvatureExtremum))
+    };
+    let Some(polygon) = &nearest.polygon else {
+        return Ok(nearest);
+    };
+    let (own, mut fewest) = (extrema(&curve.polygon)?, extrema(polygon)?);
+    let most = HARDLY_FARTHER * curve.polygon.deviation(polygon)?;
+    let mut fairest = nearest;
+    for order in [2, 3] {
+        if fewest <= own {
+            break;
+        }
+        let other = least(Disturbance::Differences(order))?;
+        let Some(polygon) = &other.polygon else {
+            continue;
+        };
+        let is_near = curve.polygon.deviation(polygon)? <= most
+            && turned_over(&curve.polygon, polygon).is_none();
+        let count = extrema(polygon)?;
+        if is_near && count < fewest {
+            (fewest, fairest) = (count, other);
+        }
+    }
+    Ok(fairest)
 }
 
 /// Repeat steps 2 to 6 on every end that has a target, and on one that has none if it moves with the other.
