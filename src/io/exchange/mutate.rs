@@ -1,8 +1,8 @@
 //! Damages files, for tests.
 
-/// Call a reader with a thousand damaged copies of each sample.
-pub(super) fn all(samples: &[Vec<u8>], read: impl Fn(&[u8])) {
-    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+/// Call a reader with so many damaged copies of each sample, the same for the same seed.
+pub(super) fn all(samples: &[Vec<u8>], times: usize, seed: u64, read: impl Fn(&[u8])) {
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64 ^ (seed << 32);
     let mut random = move |below: usize| {
         state ^= state << 13;
         state ^= state >> 7;
@@ -10,7 +10,7 @@ pub(super) fn all(samples: &[Vec<u8>], read: impl Fn(&[u8])) {
         (state % below.max(1) as u64) as usize
     };
     for sample in samples {
-        for _ in 0..1000 {
+        for _ in 0..times {
             let mut bytes = sample.clone();
             for _ in 0..=random(3) {
                 mutate(&mut bytes, &mut random);

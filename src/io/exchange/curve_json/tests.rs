@@ -261,7 +261,7 @@ fn mutations_do_not_panic() {
         write(&sample(), "").unwrap(),
         format!("[{LINE}, {LINE}]").into_bytes(),
     ];
-    super::super::mutate::all(&files, |bytes| {
+    super::super::mutate::all(&files, 1000, 0, |bytes| {
         let _ = read(bytes);
     });
 }

@@ -274,7 +274,7 @@ fn what_glif_cannot_hold_is_refused_by_name() {
 #[test]
 fn mutations_do_not_panic() {
     let files: Vec<_> = samples().iter().map(|it| write(it, "a").unwrap()).collect();
-    super::super::mutate::all(&files[3..6], |bytes| {
+    super::super::mutate::all(&files[3..6], 1000, 0, |bytes| {
         let _ = read(bytes);
     });
 }

@@ -334,6 +334,8 @@ fn mutations_do_not_panic() {
     );
     super::super::mutate::all(
         &[write(&sample(), "").unwrap(), other.into_bytes()],
+        1000,
+        0,
         |bytes| {
             let _ = read(bytes);
         },

@@ -99,7 +99,7 @@ fn mutations_do_not_panic() {
           <style>.a{fill:red}</style><polygon class='a' points='1 2 3 4'/></svg>"
             .to_vec(),
     ];
-    super::super::mutate::all(&samples, |bytes| {
+    super::super::mutate::all(&samples, 1000, 0, |bytes| {
         let _ = read(bytes);
     });
 }
