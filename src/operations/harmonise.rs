@@ -16,7 +16,7 @@ use super::values::Values;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::harmonising::{
-    Harmonised, Harmony, HarmonyError, Held, follows, harmonise,
+    Harmonised, Harmony, HarmonyError, Held, flung, follows, harmonise,
 };
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
@@ -214,7 +214,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         Outcome::reshaped(id, found.polygon.clone(), deviation)
     };
     let turned = turned_over(&curve.polygon, &found.polygon);
-    let failed = turned.as_ref().map(|_| Requirement::Failed { left: None });
+    let flung = flung(&curve.polygon, &found.polygon).map(|(vertex, distance)| {
+        let distance = significant(distance, 3);
+        format!("Vertex {vertex} moves by {distance}, farther than the curve is large: ask for more features")
+    });
+    let is_wrong = turned.is_some() || flung.is_some();
+    let failed = is_wrong.then_some(Requirement::Failed { left: None });
     let requirements = found.requirements.iter().cloned().chain(failed);
     outcome.requirements = vec![(id, requirements.collect())];
     if !found.reached {
@@ -226,6 +231,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     outcome
         .remarks
         .extend(turned.map(|turned| format!("{turned}: ask for more extrema")));
+    outcome.remarks.extend(flung);
     let raised = required.into_iter().filter_map(|(_, remark)| remark);
     outcome.remarks.extend(raised);
     if found.refitted {

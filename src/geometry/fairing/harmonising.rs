@@ -13,7 +13,7 @@ use crate::geometry::features::Features;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
-pub use super::harmonised::{Harmonised, Harmony, HarmonyError, Held, follows};
+pub use super::harmonised::{Harmonised, Harmony, HarmonyError, Held, flung, follows};
 
 /// The weight ε at which the search begins.
 const FIRST_CLOSENESS: f64 = 1e3;
@@ -75,16 +75,28 @@ pub fn harmonise(
         best.measure(polygon, progress);
     }
     let candidates = [vec![best], fitted].concat();
-    let best = chosen(candidates, progress).ok_or(HarmonyError::Cancelled)?;
+    let best = chosen(polygon, candidates, progress).ok_or(HarmonyError::Cancelled)?;
     Ok(Harmonised { iterations, ..best })
 }
 
 /// Choose the nearest of some results; of those that are hardly farther, one whose discrete curvature follows the curve.
-fn chosen(mut candidates: Vec<Harmonised>, progress: &Progress) -> Option<Harmonised> {
-    candidates.sort_by(|a, b| a.rank().partial_cmp(&b.rank()).unwrap_or(Ordering::Equal));
+fn chosen(
+    polygon: &FloatPolygon,
+    mut candidates: Vec<Harmonised>,
+    progress: &Progress,
+) -> Option<Harmonised> {
+    // A polygon with a vertex far away is the last resort.
+    let rank = |it: &Harmonised| {
+        let (misses, price) = it.rank();
+        (misses, flung(polygon, &it.polygon).is_some(), price)
+    };
+    candidates.sort_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
     let nearest = candidates.first()?.clone();
     let (_, price) = nearest.rank();
-    let is_near = |it: &&Harmonised| it.reached && it.rank().1 <= HARDLY_FARTHER * price;
+    let is_near = |it: &&Harmonised| {
+        let is_tame = flung(polygon, &it.polygon).is_none();
+        it.reached && is_tame && it.rank().1 <= HARDLY_FARTHER * price
+    };
     if candidates.iter().filter(is_near).count() < 2 {
         return Some(nearest);
     }
