@@ -11,6 +11,7 @@ use super::outcome::{Deviation, Outcome};
 use super::parameter::Parameter;
 use super::values::Values;
 use crate::document::{Edit, Renumbering};
+use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::{FloatPolygon, MAX_DEGREE, Progress};
 
 const DEGREE: Parameter = degree(
@@ -40,7 +41,7 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
-fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let (polygon, degree) = (&curve.polygon, values.whole(&DEGREE));
     if degree == polygon.degree() {
@@ -53,13 +54,26 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     let weights = polygon.weights().map(<[f64]>::to_vec);
     let vertices = polygon.vertices().to_vec();
     let polygon = FloatPolygon::new(degree, vertices, weights, polygon.is_periodic())?;
+    let moved = MeasuredDeviation::between(&polygon, &curve.polygon, progress);
+    let deviation = moved.map_or(Deviation::Unmeasured, |moved| match moved.bounded {
+        true => Deviation::AtMost(moved.largest),
+        false => Deviation::Measured(moved.largest),
+    });
+    let another = if degree > curve.polygon.degree() {
+        "Elevate"
+    } else {
+        "Reduce"
+    };
     Ok(Outcome {
+        remarks: vec![format!(
+            "The polygon stays; {another} degree keeps the curve"
+        )],
         edits: vec![Edit::Renumber {
             curve: id,
             renumbering: Renumbering::of_vertices(curve, &polygon, Some),
             polygon,
         }],
-        ..Outcome::unchanged(Deviation::Unmeasured)
+        ..Outcome::unchanged(deviation)
     })
 }
 

@@ -102,7 +102,7 @@ impl MeasuredDeviation {
     ///
     /// # Errors
     /// [`DistanceError::Cancelled`].
-    pub(in crate::geometry) fn between(
+    pub fn between(
         polygon: &FloatPolygon,
         other: &FloatPolygon,
         progress: &Progress,
