@@ -276,7 +276,12 @@ impl Following {
     }
 
     fn span_of(&self, point: DraggedPoint) -> usize {
-        (self.point_span.round() as usize).max(point.least_span)
+        self.point_span().max(point.least_span)
+    }
+
+    /// How many vertices follow a point on each side beside those that it depends on, at least.
+    pub(in crate::editor) fn point_span(&self) -> usize {
+        self.point_span.round() as usize
     }
 
     /// Whether the ends of curves follow their targets while these are dragged: in harmony alone, as a

@@ -144,7 +144,9 @@ impl Hand {
             true => Hovering::Document {
                 closed: (tool == ToolKind::Select).then_some(match self.following.closed_stay {
                     true => Closed::Stay,
-                    false => Closed::Follow,
+                    false => Closed::Follow {
+                        span: self.following.point_span(),
+                    },
                 }),
             },
             false => Hovering::Nothing,

@@ -9,6 +9,7 @@ use crate::editor::view::overlay::{Closed, Hovering, Overlay};
 use crate::editor::view::scene::HoverScene;
 use crate::editor::view::sight::Sight;
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::fairing::least_change::{Dragged, Reach, magnification};
 use crate::geometry::{coordinate, figure, radius_of, significant};
 
 impl Sight<'_> {
@@ -96,8 +97,20 @@ impl Sight<'_> {
         let place = self.coordinates(vertex, !analysis.is_planar());
         let mut text = format!("Closed vertex {index}\n{place}");
         let polygon = &analysis.curve().polygon;
-        let times = polygon.clamped_vertex_amplification(index);
-        if let Some(times) = times.filter(|_| closed == Closed::Stay) {
+        let times = match closed {
+            Closed::Stay => polygon.clamped_vertex_amplification(index),
+            Closed::Follow { span } => {
+                let dragged = Dragged::Clamped(index, DVec3::ZERO);
+                let locked: Vec<usize> = analysis.curve().locked_vertices.iter().collect();
+                let reach = Reach {
+                    span,
+                    stiffness: 0.0,
+                    locked: &locked,
+                };
+                magnification(polygon, &dragged, &reach).ok()
+            }
+        };
+        if let Some(times) = times {
             text += &format!("\nfloat × {}", significant(times, 3));
         }
         Some(HoverScene::Handle {

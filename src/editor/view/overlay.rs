@@ -55,7 +55,10 @@ pub enum Hovering {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Closed {
     /// They follow with the least change.
-    Follow,
+    Follow {
+        /// The least number of vertices that follow on each side beside those that one depends on.
+        span: usize,
+    },
     /// They stay, and the float S-polygon moves many times as far.
     Stay,
 }
