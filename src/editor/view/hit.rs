@@ -80,7 +80,7 @@ impl<'a> Sight<'a> {
     }
 
     /// The vertices within some screen points of a place, with their distances in the model. A polygon that
-    /// crowds so much that its legs are not drawn has none: the curve is hit instead.
+    /// crowds so much that its vertices are not drawn has none: the curve is hit instead.
     fn vertices_within(
         &self,
         place: DVec2,
@@ -98,24 +98,29 @@ impl<'a> Sight<'a> {
         near.filter(|(_, id)| self.is_seen(*id))
     }
 
-    /// Whether something is seen of a vertex, or of the polygon at it.
+    /// Whether a vertex is seen.
     fn is_seen(&self, id: VertexId) -> bool {
         let (curve, index) = id;
         let is_locked = |curve: &Curve| curve.locked_vertices.contains(index);
-        self.spacing_on(curve, |seen| seen.spacing(index))
+        self.is_drawn(curve, density::disc, |seen| seen.spacing(index))
             || self.shown.selection.contains(id)
             || (self.document().curve(curve)).is_some_and(|curve| is_locked(curve))
     }
 
-    /// Whether legs are drawn at a spacing of a curve's polygon.
-    fn spacing_on(&self, curve: CurveId, spacing: impl Fn(SeenChain) -> f64) -> bool {
+    /// Whether discs, or legs, are drawn at a spacing of a curve's polygon.
+    fn is_drawn(
+        &self,
+        curve: CurveId,
+        share: impl Fn(f64) -> f32,
+        spacing: impl Fn(SeenChain) -> f64,
+    ) -> bool {
         let View {
             analyses, outlines, ..
         } = self.view;
         let known = analyses.get(curve).zip(outlines.get(curve));
         known.is_none_or(|(analysis, outlined)| {
             let seen = outlined.float.seen(analysis.float());
-            density::leg(spacing(seen) * self.viewport().scale) > 0.0
+            share(spacing(seen) * self.viewport().scale) > 0.0
         })
     }
 
@@ -132,7 +137,7 @@ impl<'a> Sight<'a> {
         let (index, nearest) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
         let outlines = &self.view.outlines.get(id)?.clamped;
         let spacing = outlines.seen(chain).spacing(index);
-        let is_seen = density::leg(spacing * self.viewport().scale) > 0.0;
+        let is_seen = density::disc(spacing * self.viewport().scale) > 0.0;
         (is_seen && nearest <= reach * self.viewport().pixel()).then_some((id, index))
     }
 
@@ -241,7 +246,7 @@ impl<'a> Sight<'a> {
                 let point = from + share * leg;
                 let distance = point.distance(model);
                 if best.is_none_or(|(nearest, _)| distance < nearest)
-                    && self.spacing_on(curve, |seen| seen.leg_spacing(index))
+                    && self.is_drawn(curve, density::leg, |seen| seen.leg_spacing(index))
                 {
                     let hit = LegHit {
                         curve,
