@@ -23,6 +23,9 @@ const FAR_POLYGON: f64 = 8.0;
 /// A curve smaller than this share of the view's smaller side is a speck.
 const SPECK: f64 = 0.15;
 
+/// The shortest and the longest tooth of a comb that stays when another curve becomes active, in units of its box.
+const LEGIBLE: [f64; 2] = [0.03, 2.0];
+
 /// How far beside curve and polygon a fitted view follows the comb, in units of their extent.
 const COMB_REACH: f64 = 1.0;
 
@@ -88,7 +91,10 @@ impl View {
         let (extent, side) = (bounds.high - bounds.low, seen.high - seen.low);
         if extent.max_element() < SPECK * side.min_element() {
             self.fit_bounds(&bounds, shown.document());
-        } else {
+        } else if self.whole_comb_scale(shown).is_none_or(|whole| {
+            let length = comb.scale / whole;
+            LEGIBLE[0] <= length && length <= LEGIBLE[1]
+        }) {
             self.comb = comb;
         }
     }
