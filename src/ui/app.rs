@@ -460,8 +460,11 @@ impl App {
         let extension = exporter.format.extension();
         let stem = self.editor.workspace().path().and_then(Path::file_stem);
         let name = stem.map(|stem| stem.to_string_lossy().into_owned());
-        let active = || self.editor.document().name(self.editor.active()?);
-        let name = name.or_else(|| active().map(str::to_owned));
+        // All curves are written: one names the file only if it is alone.
+        let document = self.editor.document();
+        let mut curves = document.curves();
+        let only = curves.next().filter(|_| curves.next().is_none());
+        let name = name.or_else(|| only.map(|(_, curve)| curve.name.clone()));
         let name = name.unwrap_or_else(|| "curves".into());
         let proposal = self.folder().join(format!("{name}.{extension}"));
         self.files.ask(context, Purpose::Export(exporter), proposal);
