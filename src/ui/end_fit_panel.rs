@@ -301,8 +301,8 @@ fn repeat_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
         ),
     };
     let tooltip = "The error of the end that is farther from its target";
-    widgets::quiet_row(ui, "Remaining error, distance", &distance).on_hover_text(tooltip);
-    widgets::quiet_row(ui, "Remaining error, angle", &turn).on_hover_text(tooltip);
+    let remaining = (format!("{}  {}", distance.0, turn.0), distance.1.or(turn.1));
+    widgets::quiet_row(ui, "Remaining error", &remaining).on_hover_text(tooltip);
     let tolerance = widgets::form_row(ui, "Tolerance", |ui| {
         let text = figures::significant(report.tolerance, 4);
         let field = NumberField::new("tolerance", report.tolerance, text);
