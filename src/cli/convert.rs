@@ -30,8 +30,12 @@ impl Lowering {
                 true => "",
                 false => ", which is more than the tolerance",
             };
+            let features = match it.keeps_features {
+                true => "",
+                false => "; inflections or extrema change",
+            };
             output::message(&format!(
-                "{}: degree {} becomes {most}, {}, off by at most {}{within}",
+                "{}: degree {} becomes {most}, {}, off by at most {}{within}{features}",
                 quoted(&it.name),
                 it.degree,
                 counted(it.vertices, "vertex", "vertices"),

@@ -98,7 +98,7 @@ pub(super) fn refitted(
         most,
     });
     let requirements = own.request().into_iter().chain(limit).collect();
-    let keeps = own.0.is_none() || Shape::of(&found.polygon, progress)? == own;
+    let keeps = own.is_kept(&found.polygon, progress)?;
     let mut outcome = instead(input, found)?;
     if !keeps {
         outcome.remarks.push(
@@ -135,6 +135,11 @@ impl Shape {
         Ok(Self(
             is_known.then(|| kinds.map(|kind| features.count(kind))),
         ))
+    }
+
+    /// Whether another curve has these features, if all are known.
+    fn is_kept(&self, polygon: &FloatPolygon, progress: &Progress) -> Result<bool, OperationError> {
+        Ok(self.0.is_none() || Self::of(polygon, progress)? == *self)
     }
 
     fn request(&self) -> Option<Requirement> {
@@ -202,6 +207,15 @@ pub(super) fn fewest(
         found = polygon.refitted(goal.degree, next)?;
     }
     Ok(found)
+}
+
+/// Whether a curve has the features of another one, if all of those are known.
+pub(super) fn keeps_features(
+    polygon: &FloatPolygon,
+    other: &FloatPolygon,
+    progress: &Progress,
+) -> Result<bool, OperationError> {
+    Shape::of(polygon, progress)?.is_kept(other, progress)
 }
 
 /// Replace the curve by an approximation whose parameter runs evenly along it.

@@ -1,6 +1,6 @@
 //! Curves of a lower degree, for programs that hold no higher one.
 
-use super::degree::{Goal, fewest};
+use super::degree::{Goal, fewest, keeps_features};
 use super::error::OperationError;
 use crate::document::{Curve, Document};
 use crate::geometry::{BezierPolygon, Progress};
@@ -21,6 +21,8 @@ pub struct Lowered {
     pub deviation: f64,
     /// Whether that is within the tolerance.
     pub is_within: bool,
+    /// Whether it has the features that it had.
+    pub keeps_features: bool,
 }
 
 /// Give all curves of a higher degree than `most` that degree, with the fewest vertices within a tolerance (without one
@@ -57,6 +59,7 @@ pub fn lowered(
                 vertices: found.polygon.vertices().len(),
                 deviation: found.deviation,
                 is_within: found.deviation <= tolerance,
+                keeps_features: keeps_features(polygon, &found.polygon, progress)?,
             });
             copy = Curve {
                 colour: copy.colour,

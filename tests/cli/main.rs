@@ -193,14 +193,21 @@ fn degrees_are_lowered_within_a_tolerance_that_is_measured() {
         );
         let after = folder.inspect(&[out])["curves"][0].clone();
         assert_eq!(after["degree"], 3);
-        for quantity in ["inflections", "curvature_extrema"] {
+        let same = ["inflections", "curvature_extrema"].iter().all(|quantity| {
             let count = |curve: &Value| curve["features"][quantity].as_array().map(Vec::len);
-            assert_eq!(count(&after), count(&before), "{quantity}");
-        }
+            count(&after) == count(&before)
+        });
+        assert_eq!(
+            same,
+            !err.contains("; inflections or extrema change"),
+            "{err}"
+        );
+        assert!(same || out == "fine.batten", "{err}");
         after["float"].as_array().expect("vertices").len()
     };
-    let [coarse, fine] =
-        ["1e-2", "1e-6"].map(|tolerance| lower("b.batten", &["--tolerance", tolerance]));
+    let coarse = lower("b.batten", &["--tolerance", "1e-2"]);
+    // So many segments of degree 3 ripple.
+    let fine = lower("fine.batten", &["--tolerance", "1e-6"]);
     assert!(coarse < fine, "{coarse} and {fine} vertices");
     lower("b.step", &[]);
     // The parameter runs as evenly along both curves.
