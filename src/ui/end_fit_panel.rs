@@ -258,7 +258,13 @@ fn last_step_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     step_ui(ui, 7, "Refine and repeat", report.within, |ui| {
         let button = Button::new("Repeat").min_size(vec2(BUTTON, ROW));
         let help = "Repeat steps 2 to 6 on both ends until within the tolerance";
-        let response = ui.add_enabled(is_ready(report), button).on_hover_text(help);
+        // The steps move and turn, and bend nothing.
+        let bends = report.target.is_some_and(|target| {
+            target.curvature.is_some() || target.slope.is_some() || target.normal.is_some()
+        });
+        let instead = "The steps meet no curvature: use “Both ends at once”";
+        let response = ui.add_enabled(is_ready(report) && !bends, button);
+        let response = response.on_hover_text(help).on_disabled_hover_text(instead);
         response.clicked().then_some(EndFitAction::Repeat)
     })
 }
