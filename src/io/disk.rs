@@ -170,6 +170,29 @@ pub fn write_export(path: &Path, export: Export) -> Result<Saved, FileError> {
     })
 }
 
+/// Check that a file can be replaced by another content, without a change of it.
+///
+/// # Errors
+/// [`FileError`], naming the file.
+pub fn check_replaceable(path: &Path) -> Result<(), FileError> {
+    let check = || -> Result<(), FileProblem> {
+        let target = followed(path).map_err(FileProblem::system("find"))?;
+        let metadata = fs::metadata(&target).map_err(FileProblem::system("find"))?;
+        check_writable(path, metadata)?;
+        beside(folder_of(&target)).map_err(FileProblem::system("write"))?;
+        Ok(())
+    };
+    check().map_err(FileError::at(path))
+}
+
+/// The folder that a file is in.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
 /// Write bytes to a file, atomically: on failure what was there before is unchanged and nothing
 /// else is left. An existing file keeps its permissions, and its owner and group where the
 /// system allows it; where the path is a symbolic link, the file it points to is written.
@@ -184,10 +207,7 @@ pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<u64, FileProblem>
         Err(error) if error.kind() == io::ErrorKind::NotFound => None,
         Err(error) => return Err(not_found(error)),
     };
-    let folder = match target.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(&target);
     if !folder.is_dir() {
         return Err(FileProblem::NoFolder(folder.to_owned()));
     }

@@ -28,6 +28,9 @@ pub struct Format {
     pub(super) draw: Option<DrawBytes>,
     /// Writes a document and reports what the file does not hold; `None` if the format is only read.
     pub(super) write: Option<WriteDocument>,
+    /// Writes a document back to a file that was read, where that differs from `write`: without what an export adds
+    /// beside the curves.
+    pub(super) write_back: Option<WriteDocument>,
     /// Whether it holds matches and unknown keys; then a document can be saved in it.
     pub holds_documents: bool,
     /// The exports that the menu offers.
@@ -141,8 +144,27 @@ impl Format {
         document: &Document,
         polygon: Option<PolygonKind>,
     ) -> Result<Export, WriteError> {
-        let mut losses = LossReport::new(self.name);
         let write = self.write.ok_or(WriteError::ReadOnly(self.name))?;
+        self.written(write, document, polygon)
+    }
+
+    /// Write a document back to a file of another program: the curves and references alone.
+    ///
+    /// # Errors
+    /// As [`Format::write`].
+    pub fn write_back(&self, document: &Document) -> Result<Export, WriteError> {
+        let write = self.write_back.or(self.write);
+        let write = write.ok_or(WriteError::ReadOnly(self.name))?;
+        self.written(write, document, None)
+    }
+
+    fn written(
+        &self,
+        write: WriteDocument,
+        document: &Document,
+        polygon: Option<PolygonKind>,
+    ) -> Result<Export, WriteError> {
+        let mut losses = LossReport::new(self.name);
         let bytes = write(document, polygon, &mut losses)?;
         if !self.holds_documents {
             losses.add_matches(document, |_| true);

@@ -19,6 +19,7 @@ pub static GPX: Format = Format {
     read_chosen: None,
     draw: None,
     write: None,
+    write_back: None,
     holds_documents: false,
     exports: &[],
 };

@@ -27,6 +27,7 @@ pub static POINT_TABLE: Format = Format {
     read_chosen: Some(table::read_chosen),
     draw: None,
     write: Some(write),
+    write_back: None,
     holds_documents: false,
     exports: &[],
 };

@@ -35,6 +35,7 @@ pub static PROJECT: Format = Format {
     extensions: &["batten"],
     read: Some(read),
     write: Some(write),
+    write_back: None,
     read_chosen: None,
     draw: None,
     holds_documents: true,

@@ -50,6 +50,7 @@ pub static TABLE: Format = Format {
     read_chosen: Some(read_chosen),
     draw: None,
     write: Some(write),
+    write_back: None,
     holds_documents: false,
     exports: &[
         export("Export float S-polygon as CSV…", PolygonKind::Float),
@@ -76,6 +77,7 @@ pub static TAB_TABLE: Format = Format {
     read_chosen: Some(read_chosen),
     draw: None,
     write: Some(write_with_tabs),
+    write_back: None,
     holds_documents: false,
     exports: &[],
 };

@@ -28,6 +28,7 @@ pub static DXF: Format = Format {
     extensions: &["dxf"],
     read: None,
     write: Some(write),
+    write_back: Some(|document, _, losses| drawing(document, &[], losses)),
     read_chosen: None,
     draw: Some(exchange::dxf::read),
     holds_documents: false,
@@ -59,12 +60,24 @@ fn write(
     polygon: Option<PolygonKind>,
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
+    let chosen = polygon.map(|kind| [kind]);
+    drawing(
+        document,
+        chosen.as_ref().map_or(&DRAWN, |kind| kind),
+        losses,
+    )
+}
+
+/// Write curves with some of their polygons beside each.
+fn drawing(
+    document: &Document,
+    kinds: &[PolygonKind],
+    losses: &mut LossReport,
+) -> Result<Vec<u8>, WriteError> {
     let format = DXF.name;
     if document.curves().len() == 0 {
         return Err(WriteError::NoCurves { format });
     }
-    let chosen = polygon.map(|kind| [kind]);
-    let kinds: &[PolygonKind] = chosen.as_ref().map_or(&DRAWN, |kind| kind);
     let mut names = LayerNames::new();
     let mut layers = Vec::new();
     let mut entities = Writer::new();
