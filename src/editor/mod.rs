@@ -23,6 +23,7 @@ pub use hand::{
     Follow, Following, Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject,
     Modifiers, ToolKind, ToolRow, Transformation,
 };
+pub use jobs::edited_file::EditedFile;
 pub use jobs::file_reading::{ColumnQuestion, FileAnswer};
 pub use jobs::filing::{FileReply, Filing};
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, Recovery, with_extension};

@@ -34,7 +34,7 @@ use crate::editor::{
     MenuSubject, Refusal, Reply, ToolKind, told,
 };
 
-use crate::io::{Exporter, formats};
+use crate::io::{Exporter, PROJECT, formats};
 
 /// Under which name the settings are kept.
 const SETTINGS: &str = "window";
@@ -471,7 +471,18 @@ impl App {
     }
 
     fn ask_save(&mut self, context: &Context, after: Option<AfterDiscard>) {
-        let named = self.editor.workspace().path().map(Path::to_owned);
+        let named = self.editor.workspace().path().map(|path| {
+            let holds_all = formats::to_write(path).is_ok_and(|format| format.holds_documents);
+            // The file of another program may be in a folder that is removed afterwards.
+            match holds_all {
+                true => path.to_owned(),
+                false => working_folder().join(
+                    path.with_extension(PROJECT.extension())
+                        .file_name()
+                        .unwrap_or_default(),
+                ),
+            }
+        });
         let proposal = named.unwrap_or_else(|| self.folder().join("untitled.batten"));
         self.files.ask(context, Purpose::Save(after), proposal);
     }
@@ -481,8 +492,7 @@ impl App {
     fn folder(&self) -> PathBuf {
         let beside = self.editor.workspace().path().and_then(Path::parent);
         let folder = beside.filter(|folder| folder.is_dir()).map(Path::to_owned);
-        let folder = folder.or_else(|| std::env::current_dir().ok());
-        folder.unwrap_or_default().join("")
+        folder.unwrap_or_else(working_folder).join("")
     }
 
     fn decide(&mut self, context: &Context, decision: Decision) {
@@ -492,6 +502,10 @@ impl App {
             Decision::Save(after) => self.save_own(context, Some(after), false),
             Decision::SaveAs(after) => self.ask_save(context, after),
             Decision::Overwrite(after) => self.save_own(context, after, true),
+            Decision::Accept(after) => {
+                self.editor.filing_mut().accept_losses();
+                self.save_own(context, after, false);
+            }
             Decision::Reload => told(self.editor.reload()),
         }
     }
@@ -560,6 +574,10 @@ impl App {
                 self.editor.dismiss_message();
                 self.dialog = Some(Dialog::Changed(after));
             }
+            (Purpose::Save(after), _) if !answer.losses.is_empty() => {
+                self.editor.dismiss_message();
+                self.dialog = Some(Dialog::Losses(answer.losses, after));
+            }
             // In the system's dialogs the refusal stays the message.
             (purpose, Err(Refusal(reason))) if requested.asks_again && !self.files.is_native() => {
                 self.editor.dismiss_message();
@@ -626,6 +644,11 @@ impl eframe::App for App {
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
+}
+
+/// Where the program was started.
+fn working_folder() -> PathBuf {
+    std::env::current_dir().unwrap_or_default()
 }
 
 fn copy(context: &Context, copied: Result<String, Refusal>) {

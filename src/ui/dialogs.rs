@@ -8,8 +8,12 @@ use super::key_list::key_list_ui;
 use super::widgets;
 use crate::document::quoted;
 use crate::editor::{ColumnQuestion, Editor};
+use crate::geometry::counted;
 use crate::geometry::expressions::LengthUnit;
 use crate::io::ColumnChoice;
+
+/// So many losses are named; more would hide the buttons.
+const MOST_LOSSES: usize = 8;
 
 /// The contents of a modal dialog.
 #[derive(Debug)]
@@ -19,6 +23,8 @@ pub enum Dialog {
     /// Reload, save elsewhere, overwrite or go back, before a file is overwritten that another
     /// program has changed; then the next step.
     Changed(Option<AfterDiscard>),
+    /// Accept what the edited file's format loses, save elsewhere or go back; then the next step.
+    Losses(Vec<String>, Option<AfterDiscard>),
     /// The list of keys and mouse actions.
     Keys,
     /// What this program is.
@@ -38,6 +44,8 @@ pub enum Decision {
     SaveAs(Option<AfterDiscard>),
     /// Save over another program's changes, then go on.
     Overwrite(Option<AfterDiscard>),
+    /// Accept what the edited file's format loses and save, then go on.
+    Accept(Option<AfterDiscard>),
     /// Close the dialog.
     Close,
 }
@@ -47,6 +55,7 @@ pub fn dialog_ui(context: &Context, dialog: &Dialog, editor: &Editor) -> Option<
     widgets::modal(context, "dialog", Decision::Close, |ui| match dialog {
         Dialog::Unsaved(after) => unsaved_ui(ui, after, editor),
         Dialog::Changed(after) => changed_ui(ui, after, editor),
+        Dialog::Losses(losses, after) => losses_ui(ui, losses, after, editor),
         Dialog::Keys => {
             key_list_ui(ui);
             buttons_ui(ui, [("Close", Decision::Close)])
@@ -196,6 +205,34 @@ fn changed_ui(ui: &mut Ui, after: &Option<AfterDiscard>, editor: &Editor) -> Opt
         ("Save as…", Decision::SaveAs(after.clone())),
         ("Overwrite", Decision::Overwrite(after.clone())),
         ("Reload", Decision::Reload),
+        ("Cancel", Decision::Close),
+    ];
+    buttons_ui(ui, buttons)
+}
+
+fn losses_ui(
+    ui: &mut Ui,
+    losses: &[String],
+    after: &Option<AfterDiscard>,
+    editor: &Editor,
+) -> Option<Decision> {
+    ui.set_width(440.0);
+    ui.strong("Save with losses?");
+    let name = name_of(editor);
+    widgets::note(ui, &format!("The format of {name} cannot hold everything:"));
+    for line in losses.iter().take(MOST_LOSSES) {
+        widgets::note(ui, line);
+    }
+    let rest = losses.len().saturating_sub(MOST_LOSSES);
+    if rest > 0 {
+        widgets::note(
+            ui,
+            &format!("And {}.", counted(rest, "more loss", "more losses")),
+        );
+    }
+    let buttons = [
+        ("Save", Decision::Accept(after.clone())),
+        ("Save a copy…", Decision::SaveAs(None)),
         ("Cancel", Decision::Close),
     ];
     buttons_ui(ui, buttons)

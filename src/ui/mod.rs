@@ -75,7 +75,8 @@ mod vertex_rows;
 mod vertex_table;
 mod widgets;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use anyhow::{anyhow, bail};
@@ -83,7 +84,7 @@ use eframe::egui::{IconData, ViewportBuilder};
 
 pub use app::App;
 
-use crate::editor::Editor;
+use crate::editor::{EditedFile, Editor};
 use crate::io::Sessions;
 
 /// The window's size at first.
@@ -108,6 +109,26 @@ const PATIENCE: Duration = Duration::from_millis(4);
 pub fn run(files: &[PathBuf]) -> anyhow::Result<()> {
     let mut editor = Editor::new();
     editor.open(files)?;
+    show(editor)
+}
+
+/// Open the editor with a file of any format, to be saved back in that format. Returns whether it was saved once its
+/// window is closed. `is_alone` promises that the file holds nothing but curves.
+///
+/// # Errors
+/// As [`run`].
+pub fn edit(file: &Path, is_alone: bool) -> anyhow::Result<bool> {
+    let mut editor = Editor::new();
+    let edited = EditedFile::new(file, is_alone);
+    let saved = edited.saved_flag();
+    editor.filing_mut().edit(edited);
+    editor.open(&[file.to_owned()])?;
+    show(editor)?;
+    Ok(saved.load(Ordering::Relaxed))
+}
+
+/// Show an editor in a window until it is closed.
+fn show(mut editor: Editor) -> anyhow::Result<()> {
     check_display()?;
     if let Some(sessions) = Sessions::of_user() {
         let period = seconds::seconds_of(AUTOSAVE_VARIABLE).unwrap_or(AUTOSAVE_PERIOD);

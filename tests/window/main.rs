@@ -4,6 +4,7 @@
 mod canvas;
 mod crowds;
 mod drawing;
+mod editing;
 mod expressions;
 mod fields;
 mod files;

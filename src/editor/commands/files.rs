@@ -20,7 +20,7 @@ impl Editor {
     }
 
     /// Open files as one document in place of the present one; none leaves it as it is. Only a
-    /// single project is saved back to its file, with its unknown keys.
+    /// single project is saved back to its file, with its unknown keys, and the file that [`Filing::edit`] names.
     ///
     /// The message shows the reply of this and of the other functions on files. A task that takes longer
     /// than a frame continues beside it: then the reply is a note of that, and
@@ -32,7 +32,8 @@ impl Editor {
         if paths.is_empty() {
             return Ok(Note::silent());
         }
-        self.start_file_task(FileTask::read(paths, Purpose::Open))
+        let purpose = self.filing.purpose_of(paths);
+        self.start_file_task(FileTask::read(paths, purpose))
     }
 
     /// Open a document that was made elsewhere in place of the present one. The message shows a refusal.
@@ -86,24 +87,22 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if it cannot be written.
     pub fn save(&mut self, path: &Path) -> Reply {
-        self.start_file_task(FileTask::Save {
-            path: path.to_owned(),
-            document: self.workspace.settled().clone(),
-            known: None,
-        })
+        let document = self.workspace.settled().clone();
+        self.start_file_task(self.filing.saving(path, document, None))
     }
 
-    /// Save the document to its own file, unless another program has changed it.
+    /// Save the document to its own file, unless another program has changed it, or the file's format loses
+    /// something that the user has not accepted.
     ///
     /// # Errors
     /// [`Refusal`] if it has no file, the file was changed, or it cannot be written.
     pub fn save_unless_changed(&mut self) -> Reply {
         match self.workspace.path() {
-            Some(path) => self.start_file_task(FileTask::Save {
-                path: path.to_owned(),
-                document: self.workspace.settled().clone(),
-                known: self.workspace.fingerprint(),
-            }),
+            Some(path) => {
+                let document = self.workspace.settled().clone();
+                let known = self.workspace.fingerprint();
+                self.start_file_task(self.filing.saving(path, document, known))
+            }
             None => self.tell(Err(Refusal::from("The document has no file yet"))),
         }
     }
@@ -147,11 +146,16 @@ impl Editor {
         }
         let (work, result) = self.filing.finish()?;
         let is_file_changed = matches!(result, Ok(FileResult::Changed(_)));
+        let losses = match &result {
+            Ok(FileResult::Loses(losses)) => losses.clone(),
+            _ => Vec::new(),
+        };
         let reply = result.and_then(|result| self.take_files(&work, result));
         let reply = self.tell(reply);
         self.filing.reply = Some(FileReply {
             reply: reply.clone(),
             is_file_changed,
+            losses,
         });
         Some(reply)
     }
@@ -210,8 +214,12 @@ impl Editor {
                 fingerprint,
                 text,
             } => {
+                if let Some(edited) = self.filing.edited().filter(|it| it.path() == path) {
+                    edited.mark_saved();
+                }
                 // Another document may be open by now.
-                if work.opening == self.workspace.opening() {
+                let is_same = work.opening == self.workspace.opening();
+                if is_same && !self.filing.is_copy(&path, &self.workspace) {
                     self.workspace.mark_saved(path, document, fingerprint);
                 }
                 Ok(Note::told(text))
@@ -219,6 +227,10 @@ impl Editor {
             FileResult::Changed(path) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();
                 Err(Refusal(format!("Another program has changed {name}")))
+            }
+            FileResult::Loses(losses) => {
+                let lines = losses.join("\n");
+                Err(Refusal(format!("Accept what is lost first:\n{lines}")))
             }
             FileResult::Exported { text } => Ok(Note::told(text)),
         }

@@ -48,7 +48,7 @@ impl Editor {
     ) -> Reply {
         self.interrupt();
         let receiving = match incoming.purpose {
-            Purpose::Open => Document::default(),
+            Purpose::Open | Purpose::Edit => Document::default(),
             Purpose::Import | Purpose::Paste => self.document().clone(),
         };
         let merged = match merged(receiving, &incoming, assumed) {
@@ -70,7 +70,7 @@ impl Editor {
         let counted = counted_items(curves, references);
         let lines = merged.lines.join("\n");
         match incoming.purpose {
-            Purpose::Open => {
+            Purpose::Open | Purpose::Edit => {
                 self.replace(merged.document, None);
                 let files = incoming.documents.len();
                 let text = format!("{counted} read from {files} files");

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::document::quoted;
 use crate::editor::Editor;
-use crate::editor::jobs::filing::open_elsewhere;
+use crate::editor::jobs::filing::{open_elsewhere, own_path};
 use crate::editor::jobs::{Autosaver, Recoverable, Recovery};
 use crate::editor::reply::{Message, Note, Refusal, Reply, with_lines};
 use crate::io::{FileError, Sessions};
@@ -81,7 +81,9 @@ impl Editor {
             let content = recoverable.content?;
             let name = content.name.as_deref();
             let name = name.map_or("the document".to_owned(), quoted);
-            self.replace(content.document, content.origin.path);
+            // A file that was edited for another program is none to save a whole document to.
+            let path = content.origin.path.and_then(|path| own_path(&path));
+            self.replace(content.document, path);
             self.workspace.set_fingerprint(content.origin.fingerprint);
             self.workspace.mark_unsaved();
             self.recovery.autosaving.supersede(recoverable.session);

@@ -15,6 +15,8 @@ use crate::io::{
 pub(in crate::editor) enum Purpose {
     /// They replace the document.
     Open,
+    /// The only one replaces the document, and is written back to its file in the file's format.
+    Edit,
     /// They are added.
     Import,
     /// Copies of them are added.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::Client;
 use super::autosaving::Autosaver;
+use super::edited_file::EditedFile;
 use super::file_reading::{ColumnQuestion, FilesToRead, Purpose, Unread};
 use super::patience::Patience;
 use crate::document::{Curve, Document, Reference, quoted};
@@ -11,7 +12,7 @@ use crate::editor::reply::{Refusal, Reply, with_lines};
 use crate::editor::workspace::Workspace;
 use crate::geometry::counted;
 use crate::geometry::expressions::LengthUnit;
-use crate::io::{Exporter, Fingerprint, PROJECT, disk, formats, shown_path};
+use crate::io::{Exporter, FileError, Fingerprint, PROJECT, disk, formats, shown_path};
 
 /// Read and write files, and watch the document's own file.
 #[derive(Debug, Default)]
@@ -19,6 +20,8 @@ pub struct Filing {
     client: Client<FileWork, Result<FileResult, Refusal>>,
     /// Looks at the document's file for changes by other programs.
     watch: Client<PathBuf, Fingerprint>,
+    /// The file that the program was started to edit.
+    edited: Option<EditedFile>,
     /// The reply to the last request for files, until the window takes it.
     pub(in crate::editor) reply: Option<FileReply>,
     /// Documents that wait for the unit of the document that receives them.
@@ -48,6 +51,13 @@ pub(in crate::editor) enum FileTask {
     /// Write the document; refuse if its file is known and holds something else.
     Save {
         path: PathBuf,
+        document: Document,
+        known: Option<Fingerprint>,
+    },
+    /// Write the document back to the file of another program that it was read from; ask first if that
+    /// loses something, and refuse if the file is known and holds something else.
+    WriteBack {
+        edited: EditedFile,
         document: Document,
         known: Option<Fingerprint>,
     },
@@ -85,6 +95,8 @@ pub(in crate::editor) enum FileResult {
     },
     /// Another program has changed the file, so nothing is written.
     Changed(PathBuf),
+    /// The user must accept these losses first, so nothing is written.
+    Loses(Vec<String>),
     Exported {
         text: String,
     },
@@ -113,6 +125,8 @@ pub struct FileReply {
     pub reply: Reply,
     /// Whether nothing was written because another program has changed the file.
     pub is_file_changed: bool,
+    /// The losses that the user must accept before anything is written, one line each.
+    pub losses: Vec<String>,
 }
 
 /// A question for the unit of the document, with what waits for the answer.
@@ -151,6 +165,61 @@ impl Filing {
     /// [`Editor::answer_files`](crate::editor::Editor::answer_files) chooses its columns.
     pub fn column_question(&self) -> Option<&ColumnQuestion> {
         self.column_question.as_deref()
+    }
+
+    /// Name the file that the program was started to edit: when it is opened, whatever its format, it becomes the
+    /// document's own file.
+    pub fn edit(&mut self, edited: EditedFile) {
+        self.edited = Some(edited);
+    }
+
+    /// The purpose of opening files.
+    pub(in crate::editor) fn purpose_of(&self, paths: &[PathBuf]) -> Purpose {
+        match (&self.edited, paths) {
+            (Some(edited), [path]) if edited.path() == path => Purpose::Edit,
+            _ => Purpose::Open,
+        }
+    }
+
+    /// The file that the program was started to edit.
+    pub fn edited(&self) -> Option<&EditedFile> {
+        self.edited.as_ref()
+    }
+
+    /// Accept what the format of the edited file cannot hold. From now on saving does not ask.
+    pub fn accept_losses(&mut self) {
+        if let Some(edited) = &mut self.edited {
+            edited.accept_losses();
+        }
+    }
+
+    /// Whether a save to another path is a copy: the edited file stays the document's file.
+    pub(in crate::editor) fn is_copy(&self, path: &Path, workspace: &Workspace) -> bool {
+        let is_edited =
+            |edited: &EditedFile| workspace.path() == Some(edited.path()) && edited.path() != path;
+        self.edited.as_ref().is_some_and(is_edited)
+    }
+
+    /// The task that saves a document. The edited file is written back in its own format.
+    pub(in crate::editor) fn saving(
+        &self,
+        path: &Path,
+        document: Document,
+        known: Option<Fingerprint>,
+    ) -> FileTask {
+        let edited = self.edited.as_ref();
+        match edited.filter(|edited| edited.is_foreign() && edited.path() == path) {
+            Some(edited) => FileTask::WriteBack {
+                edited: edited.clone(),
+                document,
+                known,
+            },
+            None => FileTask::Save {
+                path: path.to_owned(),
+                document,
+                known,
+            },
+        }
     }
 
     /// The task that is not finished.
@@ -263,11 +332,12 @@ impl FileTask {
         };
         match self {
             Self::Read(files) => match files.purpose {
-                Purpose::Open => format!("Opening {}…", names(&files.paths)),
+                Purpose::Open | Purpose::Edit => format!("Opening {}…", names(&files.paths)),
                 _ => format!("Importing {}…", names(&files.paths)),
             },
             Self::Reload(path) => format!("Reloading {}…", name(path)),
             Self::Save { path, .. } => format!("Saving {}…", name(path)),
+            Self::WriteBack { edited, .. } => format!("Saving {}…", name(edited.path())),
             Self::Export { path, .. } => format!("Exporting {}…", name(path)),
         }
     }
@@ -276,7 +346,7 @@ impl FileTask {
         match self {
             Self::Read(files) => {
                 let read = match (files.purpose, files.paths.as_slice()) {
-                    (Purpose::Open, [path]) => open(&files, path, autosaver),
+                    (Purpose::Open | Purpose::Edit, [path]) => open(&files, path, autosaver),
                     _ => read_all(&files),
                 };
                 match read {
@@ -291,6 +361,11 @@ impl FileTask {
                 document,
                 known,
             } => save(&path, document, known, autosaver),
+            Self::WriteBack {
+                edited,
+                document,
+                known,
+            } => write_back(&edited, document, known),
             Self::Export {
                 path,
                 exporter,
@@ -313,7 +388,13 @@ fn open(
     if document.has_extras() {
         text += "\nUnknown keys are kept when you save.";
     }
-    let own = own_path(path);
+    let own = match files.purpose {
+        Purpose::Edit => Some(path.to_owned()),
+        _ => own_path(path),
+    };
+    if files.purpose == Purpose::Edit {
+        text += "\nSave writes the file back. Close the window when you are done.";
+    }
     let elsewhere = own.as_deref().map(|own| open_elsewhere(own, autosaver));
     Ok(FileResult::Opened {
         document,
@@ -347,9 +428,7 @@ fn save(
             "{shown}: a {format} cannot store a whole document: save as .batten, or export"
         )));
     }
-    // A file that is not there, or cannot be read, holds nothing that could be lost.
-    let found = known.and_then(|_| disk::fingerprint(&path));
-    if found.is_some() && found != known {
+    if is_changed(&path, known) {
         return Ok(FileResult::Changed(path));
     }
     let saved = disk::write_document(&path, &document, None)?;
@@ -357,6 +436,37 @@ fn save(
     Ok(FileResult::Saved {
         text: with_lines(text, &open_elsewhere(&path, autosaver)),
         path,
+        document,
+        fingerprint: saved.fingerprint,
+    })
+}
+
+/// Whether a file whose content is known holds another one now. A file that is not there, or cannot be read, holds
+/// nothing that could be lost.
+fn is_changed(path: &Path, known: Option<Fingerprint>) -> bool {
+    let found = known.and_then(|_| disk::fingerprint(path));
+    found.is_some() && found != known
+}
+
+fn write_back(
+    edited: &EditedFile,
+    document: Document,
+    known: Option<Fingerprint>,
+) -> Result<FileResult, Refusal> {
+    let path = edited.path();
+    let format = formats::to_write(path).map_err(FileError::at(path))?;
+    let export = format.write_back(&document).map_err(FileError::at(path))?;
+    let losses = edited.losses_to_accept(format, &document, &export.losses);
+    if !losses.is_empty() {
+        return Ok(FileResult::Loses(losses));
+    }
+    if is_changed(path, known) {
+        return Ok(FileResult::Changed(path.to_owned()));
+    }
+    let saved = disk::write_export(path, export)?;
+    Ok(FileResult::Saved {
+        text: with_lines(format!("Saved to {}", shown_path(path)), &saved),
+        path: path.to_owned(),
         document,
         fingerprint: saved.fingerprint,
     })
@@ -429,7 +539,7 @@ pub(in crate::editor) fn open_elsewhere(path: &Path, autosaver: Option<&Autosave
 }
 
 /// The path that a document read from it is saved back to: only a project loses nothing there.
-fn own_path(path: &Path) -> Option<PathBuf> {
+pub(in crate::editor) fn own_path(path: &Path) -> Option<PathBuf> {
     let format = formats::to_read(path).ok()?;
     format.holds_documents.then(|| path.to_owned())
 }

@@ -1,0 +1,92 @@
+//! The file of another program that is edited: saving writes the curves back in the format of the file.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::document::Document;
+use crate::io::{Format, Loss, LossReport, formats};
+
+/// A curve that moves by less than this share of its size has lost nothing that anybody could see or measure. Curves
+/// converted to clamped knots and back move by up to about 1e-14.
+const ROUNDING: f64 = 1e-12;
+
+/// The file that the program was started to edit.
+#[derive(Clone, Debug)]
+pub struct EditedFile {
+    path: PathBuf,
+    /// Whether the file holds nothing but curves.
+    is_alone: bool,
+    /// Whether the user has accepted the losses.
+    is_accepted: bool,
+    /// Whether the file was saved at least once.
+    is_saved: Arc<AtomicBool>,
+}
+
+impl EditedFile {
+    /// Edit a file. `is_alone` promises that it holds nothing but curves.
+    pub fn new(path: &Path, is_alone: bool) -> Self {
+        Self {
+            path: path.to_owned(),
+            is_alone,
+            is_accepted: false,
+            is_saved: Arc::default(),
+        }
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Whether its format can hold less than a document: saving then loses something.
+    pub fn is_foreign(&self) -> bool {
+        !formats::to_write(&self.path).is_ok_and(|format| format.holds_documents)
+    }
+
+    /// A flag that tells, also after the window is gone, whether the file was saved.
+    pub fn saved_flag(&self) -> Arc<AtomicBool> {
+        self.is_saved.clone()
+    }
+
+    pub(in crate::editor) fn mark_saved(&self) {
+        self.is_saved.store(true, Ordering::Relaxed);
+    }
+
+    pub(in crate::editor) fn accept_losses(&mut self) {
+        self.is_accepted = true;
+    }
+
+    /// The losses that the user must accept before the first save: one line each.
+    pub(super) fn losses_to_accept(
+        &self,
+        format: &Format,
+        document: &Document,
+        losses: &LossReport,
+    ) -> Vec<String> {
+        if self.is_accepted {
+            return Vec::new();
+        }
+        let rest = (format.draws() && !self.is_alone).then(|| {
+            format!(
+                "The {format} holds the curves alone: other entities, layers and styles are lost."
+            )
+        });
+        let sizes: HashMap<&str, f64> = document
+            .curves()
+            .map(|(_, curve)| (curve.name.as_str(), curve.polygon.size()))
+            .collect();
+        let mut losses = losses.clone();
+        losses.losses.retain(|(name, loss)| match loss {
+            Loss::Digits { curve, .. } => {
+                let size = sizes.get(name.as_str()).copied().unwrap_or_default();
+                *curve > ROUNDING * size
+            }
+            _ => true,
+        });
+        let lines = losses.to_string();
+        let lines = lines.lines().map(str::to_owned);
+        rest.into_iter().chain(lines).collect()
+    }
+}
