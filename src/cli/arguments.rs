@@ -8,7 +8,7 @@ use clap::{CommandFactory, Error, Parser, Subcommand};
 use super::apply::Application;
 use super::apply_arguments::{ApplyArguments, Given};
 use super::convert::Lowering;
-use super::ends::{Destination, Source};
+use super::ends::{Destination, STANDARD, Source};
 use super::list::Listed;
 use super::many_files::ManyFiles;
 use super::parsers::{
@@ -30,7 +30,7 @@ const LEAST_LIKENESS: f64 = 0.7;
 #[derive(Debug, Parser)]
 #[command(name = "batten", version, args_conflicts_with_subcommands = true)]
 #[command(
-    after_help = "Formats are told by their extensions: .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf, .step, .igs, .3dm, .svg, .glif, .obj, .brep and .json are read and written, .gpx is read.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place, or what was asked for is not reached; 2 bad usage."
+    after_help = "Formats are told by their extensions: .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .dxf, .step, .igs, .3dm, .svg, .glif, .obj, .brep and .json are read and written, .gpx is read.\n“-” stands for the standard input and output; --from-format and --to-format tell the format then.\nExit codes: 0 done; 1 bad input, with a message that names file and place, or what was asked for is not reached; 2 bad usage; 3 (edit) the file was not saved."
 )]
 pub(super) struct Arguments {
     #[command(subcommand)]
@@ -43,6 +43,17 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Open the editor on a file of any format, which Save writes back in that format
+    ///
+    /// What the format cannot hold is told before the first save. The exit code is 0 if the file was saved, and 3 if
+    /// it was not.
+    Edit {
+        /// The file to edit; its extension tells the format
+        file: PathBuf,
+        /// Promise that the file holds nothing but curves: the window then asks only about their own losses
+        #[arg(long)]
+        alone: bool,
+    },
     /// Write a built-in example to a file
     Example {
         /// The example's name
@@ -194,6 +205,13 @@ enum Command {
 pub(super) enum Task {
     /// Open the editor with these files.
     Editor(Vec<PathBuf>),
+    /// Open the editor to edit a file of another program.
+    Edit {
+        /// The file.
+        file: PathBuf,
+        /// Whether it holds nothing but curves.
+        is_alone: bool,
+    },
     /// List the examples.
     Examples,
     /// Write an example.
@@ -263,6 +281,14 @@ impl Arguments {
     pub(super) fn checked(self) -> Result<Task, Error> {
         Ok(match self.command {
             None => Task::Editor(files(self.files)?),
+            Some(Command::Edit { file, .. }) if file.as_os_str() == STANDARD => {
+                let needed = "a file is needed: the standard input cannot be written back";
+                return Err(missing("edit", needed));
+            }
+            Some(Command::Edit { file, alone }) => Task::Edit {
+                file,
+                is_alone: alone,
+            },
             Some(Command::Example {
                 name: Some(example),
                 out: Some(out),

@@ -7,6 +7,7 @@ mod arguments;
 mod batch;
 mod choice_parser;
 mod convert;
+mod edit;
 mod ends;
 mod feature_lists;
 mod inspect;
@@ -36,6 +37,13 @@ use arguments::{Arguments, Task};
 pub enum Request {
     /// To open the editor with these files; with the first example if there are none.
     Editor(Vec<PathBuf>),
+    /// To open the editor with a file that is saved back in its own format.
+    Edit {
+        /// The file.
+        file: PathBuf,
+        /// Whether it holds nothing but curves.
+        is_alone: bool,
+    },
     /// Nothing more: it is done, and this is the exit code.
     Done(ExitCode),
 }
@@ -47,6 +55,10 @@ pub enum Request {
 pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Request {
     let result = match Arguments::try_parse_from(arguments).and_then(Arguments::checked) {
         Ok(Task::Editor(files)) => return Request::Editor(files),
+        Ok(Task::Edit { file, is_alone }) => match edit::check(&file) {
+            Ok(()) => return Request::Edit { file, is_alone },
+            Err(error) => Err(error),
+        },
         Ok(Task::Examples) => list_examples(),
         Ok(Task::Example(example, destination)) => convert::example(&example, &destination),
         Ok(Task::Table1 { json }) => table1(json),

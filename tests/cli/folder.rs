@@ -48,6 +48,12 @@ impl Folder {
         assert_eq!(out, "");
     }
 
+    /// Run and return the exit code and what is printed as error.
+    pub fn failed(&self, arguments: &[&str]) -> (i32, String) {
+        let output = self.run(arguments);
+        (output.status.code().unwrap_or(-1), texts(&output).1)
+    }
+
     /// Run and expect that the usage is not understood.
     pub fn misused(&self, arguments: &[&str], expected: &str) {
         let output = self.run(arguments);
