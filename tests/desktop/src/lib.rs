@@ -8,7 +8,7 @@ mod display;
 use std::ffi::OsStr;
 use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
@@ -282,11 +282,16 @@ impl Window {
     }
 
     /// Wait until the program has ended and tell whether it did so well.
-    pub fn wait(mut self) -> Result<bool> {
+    pub fn wait(self) -> Result<bool> {
+        Ok(self.exit_status()?.success())
+    }
+
+    /// Wait until the program has ended and return how.
+    pub fn exit_status(mut self) -> Result<ExitStatus> {
         let begin = Instant::now();
         while begin.elapsed() < PATIENCE {
             if let Some(status) = self.program.try_wait()? {
-                return Ok(status.success());
+                return Ok(status);
             }
             std::thread::sleep(Duration::from_millis(50));
         }
