@@ -4,7 +4,7 @@ use crate::geometry::references::KINDS;
 use crate::operations::{self, Operation};
 
 /// The pages in the order of the list: file and source.
-const PAGES: [(&str, &str); 10] = [
+const PAGES: [(&str, &str); 14] = [
     ("start.md", include_str!("../../assets/help/start.md")),
     ("curves.md", include_str!("../../assets/help/curves.md")),
     ("ends.md", include_str!("../../assets/help/ends.md")),
@@ -24,6 +24,10 @@ const PAGES: [(&str, &str); 10] = [
         "command-line.md",
         include_str!("../../assets/help/command-line.md"),
     ),
+    ("freecad.md", include_str!("../../assets/help/freecad.md")),
+    ("rhino.md", include_str!("../../assets/help/rhino.md")),
+    ("inkscape.md", include_str!("../../assets/help/inkscape.md")),
+    ("blender.md", include_str!("../../assets/help/blender.md")),
 ];
 
 /// Hold a page of the manual.

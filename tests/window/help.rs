@@ -50,6 +50,10 @@ fn every_page_is_shown_with_all_its_letters() {
         "References",
         "Files",
         "Command line",
+        "FreeCAD",
+        "Rhino",
+        "Inkscape",
+        "Blender",
     ] {
         let link = window.get_all_by_label(title).last();
         link.expect("a link").click();
