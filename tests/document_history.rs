@@ -2,7 +2,8 @@
 
 use batten::document::Reference;
 use batten::document::{
-    Colour, Curve, CurveId, Document, Edit, EditError, EndMatch, History, MatchPlace, Renumbering,
+    Colour, Curve, CurveId, Document, Edit, EditError, EndMatch, Group, History, MatchPlace,
+    Renumbering,
 };
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::expressions::LengthUnit;
@@ -724,4 +725,88 @@ fn a_unit_relabels_and_converting_it_keeps_every_size() {
     history.redo();
     history.redo();
     assert!(history.document().is_same(&converted));
+}
+
+/// A document of three curves and a reference, with the groups of some, and their identities.
+fn grouped() -> (Document, Vec<CurveId>) {
+    let curve = |name: &str, group: &str| Curve::new(name, cubic()).in_group(group.into());
+    let circle = ReferenceCurve::from_text("circle").expect("a reference");
+    let curves = [curve("a", "Deck/Port"), curve("b", ""), curve("c", "Deck")];
+    let circle = Reference::new("circle", circle).in_group("Deck/Port".into());
+    let document = Document::from_curves(curves).with_references([circle]);
+    let ids = document.all_ids().collect();
+    (document, ids)
+}
+
+fn groups(document: &Document) -> Vec<String> {
+    let groups = document.all_ids().filter_map(|id| document.group(id));
+    groups.map(Group::to_string).collect()
+}
+
+#[test]
+fn items_move_to_groups_and_undo_takes_them_back() {
+    let (document, ids) = grouped();
+    let mut history = History::new(document);
+    let group = Group::from("Hull");
+    let edits = [ids[0], ids[1], ids[3]].map(|curve| Edit::SetGroup {
+        curve,
+        group: group.clone(),
+    });
+    history.apply("Group", edits.into()).expect("edits");
+    assert_eq!(groups(history.document()), ["Hull", "Hull", "Deck", "Hull"]);
+    let members: Vec<CurveId> = history.document().members(&group).collect();
+    assert_eq!(members, [ids[0], ids[1], ids[3]]);
+    let leave = Edit::SetGroup {
+        curve: ids[0],
+        group: Group::default(),
+    };
+    history.apply("Leave", vec![leave]).expect("an edit");
+    assert_eq!(groups(history.document()), ["", "Hull", "Deck", "Hull"]);
+    history.undo();
+    history.undo();
+    let before = ["Deck/Port", "", "Deck", "Deck/Port"];
+    assert_eq!(groups(history.document()), before);
+    assert!(!history.is_modified());
+}
+
+#[test]
+fn a_group_is_renamed_with_the_groups_in_it() {
+    let (document, ids) = grouped();
+    let mut history = History::new(document);
+    let locked = Edit::SetLocked {
+        curve: ids[0],
+        locked: true,
+    };
+    history.apply("Lock", vec![locked]).expect("an edit");
+    let rename = |group: &str, to: &str| {
+        let (group, to) = (group.into(), to.into());
+        vec![Edit::RenameGroup { group, to }]
+    };
+    let renamed = rename("Deck", "Ship/1\\/2");
+    history.apply("Rename", renamed).expect("an edit");
+    let expected = ["Ship/1\\/2/Port", "", "Ship/1\\/2", "Ship/1\\/2/Port"];
+    assert_eq!(groups(history.document()), expected);
+    let refused = history.apply("Rename", rename("Deck", "Hull"));
+    let group = "Deck".to_owned();
+    assert_eq!(refused, Err(EditError::NoSuchGroup { group }));
+    let dissolved = rename("Ship", "");
+    history.apply("Dissolve", dissolved).expect("an edit");
+    let expected = ["1\\/2/Port", "", "1\\/2", "1\\/2/Port"];
+    assert_eq!(groups(history.document()), expected);
+    history.undo();
+    history.undo();
+    let before = ["Deck/Port", "", "Deck", "Deck/Port"];
+    assert_eq!(groups(history.document()), before);
+}
+
+#[test]
+fn merged_and_converted_documents_keep_groups() {
+    let (document, _) = grouped();
+    let incoming = document.with_unit(Some(LengthUnit::Inch));
+    let own = Document::from_curves([Curve::new("own", cubic()).in_group("Own".into())]);
+    let own = own.with_unit(Some(LengthUnit::Millimetre));
+    let merge = own.merging(&incoming, None).expect("a merge");
+    let merged = own.edited(merge.edits).expect("edits");
+    let expected = ["Own", "Deck/Port", "", "Deck", "Deck/Port"];
+    assert_eq!(groups(&merged), expected);
 }

@@ -2,6 +2,7 @@
 
 use super::error::EditError;
 use super::extras::Extras;
+use super::group::Group;
 use super::locked_vertices::LockedVertices;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, FloatPolygon};
@@ -74,6 +75,8 @@ impl EndTargets {
 pub struct Curve {
     /// The name shown in lists and written to files.
     pub name: String,
+    /// The group that lists show it in, and that files of other programs write as its layer.
+    pub group: Group,
     /// The curve's own colour; `None` takes the theme's.
     pub colour: Option<Colour>,
     /// Whether it is drawn and can be picked.
@@ -161,10 +164,11 @@ impl Curve {
         EditError::LockedVertex { name, vertex }
     }
 
-    /// Make a visible, unlocked curve without locked vertices and targets.
+    /// Make a visible, unlocked curve without group, locked vertices and targets.
     pub fn new(name: impl Into<String>, polygon: FloatPolygon) -> Self {
         Self {
             name: name.into(),
+            group: Group::default(),
             colour: None,
             visible: true,
             locked: false,
@@ -173,5 +177,10 @@ impl Curve {
             targets: EndTargets::default(),
             extras: Extras::default(),
         }
+    }
+
+    /// Put the curve into a group.
+    pub fn in_group(self, group: Group) -> Self {
+        Self { group, ..self }
     }
 }

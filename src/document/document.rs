@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::curve::{Curve, CurveId};
 use super::end_match::EndMatch;
 use super::extras::Extras;
+use super::group::Group;
 use super::names::free_name;
 use super::reference::Reference;
 use crate::geometry::ParametricCurve;
@@ -136,6 +137,22 @@ impl Document {
             Some(curve) => Some(&curve.name),
             None => Some(&self.reference(id)?.name),
         }
+    }
+
+    /// The group of a curve, or of a reference.
+    pub fn group(&self, id: CurveId) -> Option<&Group> {
+        match self.curve(id) {
+            Some(curve) => Some(&curve.group),
+            None => Some(&self.reference(id)?.group),
+        }
+    }
+
+    /// The curves, then the references, that a group or a group within it holds.
+    pub fn members<'a>(&'a self, group: &'a Group) -> impl Iterator<Item = CurveId> + 'a {
+        let curves = self.curves().map(|(id, curve)| (id, &curve.group));
+        let references = self.references().map(|(id, it)| (id, &it.group));
+        let members = curves.chain(references).filter(|(_, own)| group.holds(own));
+        members.map(|(id, _)| id)
     }
 
     /// Whether a curve, or a reference, is there and drawn.

@@ -9,6 +9,7 @@ use super::curve::{Colour, Curve, CurveId};
 use super::document::Document;
 use super::end_match::EndMatch;
 use super::error::EditError;
+use super::group::Group;
 use super::reference::Reference;
 use super::renumbering::Renumbering;
 use crate::geometry::end_correction::EndTarget;
@@ -68,6 +69,21 @@ pub enum Edit {
         curve: CurveId,
         /// The new name.
         name: String,
+    },
+    /// Move a curve or a reference to a group, or out of its group.
+    SetGroup {
+        /// The curve or the reference.
+        curve: CurveId,
+        /// The new group.
+        group: Group,
+    },
+    /// Give a group another path, with the groups within it. Without names in the new path its curves and
+    /// references leave it.
+    RenameGroup {
+        /// The group.
+        group: Group,
+        /// Its new path.
+        to: Group,
     },
     /// Give a curve or a reference a colour of its own, or the theme's.
     Recolour {
@@ -192,6 +208,10 @@ impl Document {
                 }
                 self.change_attributes(curve, |item| *item.name = name)
             }
+            Edit::SetGroup { curve, group } => {
+                self.change_attributes(curve, |item| *item.group = group)
+            }
+            Edit::RenameGroup { group, to } => self.rename_group(&group, &to),
             Edit::Recolour { curve, colour } => {
                 self.change_attributes(curve, |item| *item.colour = colour)
             }
@@ -263,6 +283,7 @@ impl Document {
             let curve = Arc::make_mut(&mut self.curves[index].1);
             change(Attributes {
                 name: &mut curve.name,
+                group: &mut curve.group,
                 colour: &mut curve.colour,
                 visible: &mut curve.visible,
                 locked: &mut curve.locked,
@@ -273,10 +294,27 @@ impl Document {
         let reference = Arc::make_mut(&mut self.references[index].1);
         change(Attributes {
             name: &mut reference.name,
+            group: &mut reference.group,
             colour: &mut reference.colour,
             visible: &mut reference.visible,
             locked: &mut reference.locked,
         });
+        Ok(())
+    }
+
+    fn rename_group(&mut self, group: &Group, to: &Group) -> Result<(), EditError> {
+        let members: Vec<CurveId> = self.members(group).collect();
+        if members.is_empty() {
+            let group = group.to_string();
+            return Err(EditError::NoSuchGroup { group });
+        }
+        for id in members {
+            self.change_attributes(id, |item| {
+                if let Some(renamed) = item.group.renamed(group, to) {
+                    *item.group = renamed;
+                }
+            })?;
+        }
         Ok(())
     }
 
@@ -375,6 +413,7 @@ impl Document {
 /// What curves and references both have, to be changed.
 struct Attributes<'a> {
     name: &'a mut String,
+    group: &'a mut Group,
     colour: &'a mut Option<Colour>,
     visible: &'a mut bool,
     locked: &'a mut bool,

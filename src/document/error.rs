@@ -12,6 +12,12 @@ pub enum EditError {
     /// The curve is not in the document.
     #[error("the curve is no longer in the document")]
     NoSuchCurve,
+    /// Nothing in the document is in the group.
+    #[error("there is no group {}", quoted(.group))]
+    NoSuchGroup {
+        /// The path of the group.
+        group: String,
+    },
     /// The curve is locked.
     #[error("{} is locked: unlock it in the list of curves to change its shape", quoted(.name))]
     Locked {

@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::curve::Colour;
 use super::error::EditError;
 use super::extras::Extras;
+use super::group::Group;
 use crate::geometry::references::{ReferenceCurve, ReferenceForm};
 
 /// Hold a reference: its curve or its points, which no vertices edit, and what the user calls it.
@@ -12,6 +13,8 @@ use crate::geometry::references::{ReferenceCurve, ReferenceForm};
 pub struct Reference {
     /// The name shown in lists and written to files.
     pub name: String,
+    /// The group that lists show it in, and that files of other programs write as its layer.
+    pub group: Group,
     /// The reference's own colour; `None` takes the theme's.
     pub colour: Option<Colour>,
     /// Whether it is drawn and can be picked.
@@ -26,16 +29,22 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// Make a visible, unlocked reference.
+    /// Make a visible, unlocked reference without group.
     pub fn new(name: impl Into<String>, curve: ReferenceCurve) -> Self {
         Self {
             name: name.into(),
+            group: Group::default(),
             colour: None,
             visible: true,
             locked: false,
             curve,
             extras: Extras::default(),
         }
+    }
+
+    /// Put the reference into a group.
+    pub fn in_group(self, group: Group) -> Self {
+        Self { group, ..self }
     }
 
     /// The points where they are placed, if it is a list of points.

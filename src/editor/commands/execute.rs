@@ -272,6 +272,8 @@ fn step_label(edit: &Edit, document: &Document) -> String {
         Edit::SetVisible { curve, visible } => of(if *visible { "Show" } else { "Hide" }, *curve),
         Edit::SetLocked { curve, locked } => of(if *locked { "Lock" } else { "Unlock" }, *curve),
         Edit::Rename { curve, .. } => of("Rename", *curve),
+        Edit::SetGroup { .. } => "Move to group".to_owned(),
+        Edit::RenameGroup { .. } => "Rename group".to_owned(),
         Edit::Recolour { curve, .. } => of("Recolour", *curve),
         Edit::Remove(curve) => of("Delete", *curve),
         Edit::SetVerticesLocked { locked, .. } => locking::label(*locked).to_owned(),
