@@ -267,8 +267,10 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         Source::Reference(reference) => {
             let name = reference.form().label().to_lowercase();
             let name = input.document().free_name(&name);
+            let curve = Curve::new(name, found.polygon.clone());
+            let curve = curve.in_group(input.group(Some(reference)));
             Outcome {
-                edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
+                edits: vec![Edit::Add(Box::new(curve))],
                 ..Outcome::unchanged(deviation)
             }
         }

@@ -255,7 +255,7 @@ fn made(input: &Operands, segment: &Segment) -> Outcome {
     });
     outcome.requirements = vec![(input.document().next_id(), segment.requirements.clone())];
     let name = input.document().free_name("segment 1");
-    let curve = Curve::new(name, segment.polygon.clone());
+    let curve = Curve::new(name, segment.polygon.clone()).in_group(input.group(None));
     outcome.edits = vec![Edit::Add(Box::new(curve))];
     outcome.figures = figures(segment);
     outcome.remarks = remarks(segment);

@@ -449,7 +449,8 @@ fn outcome(
     };
     let curves = fitted.iter().enumerate().map(|(index, found)| {
         let name = input.document().free_name(&name(index));
-        Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))
+        let curve = Curve::new(name, found.polygon.clone());
+        Edit::Add(Box::new(curve.in_group(input.group(None))))
     });
     let marked = fitted.iter().flat_map(|found| &found.outliers);
     let marked = marked.filter_map(|(index, _)| input.points().get(*index));
@@ -654,10 +655,11 @@ fn in_space(
     });
     let requirements = features.into_iter().chain(limit).collect();
     let name = input.document().free_name("fit");
+    let curve = Curve::new(name, found.polygon.clone()).in_group(input.group(None));
     let marked = outliers.iter().filter_map(|index| points.get(*index));
     Ok(Outcome {
         requirements: vec![(input.document().next_id(), requirements)],
-        edits: vec![Edit::Add(Box::new(Curve::new(name, found.polygon.clone())))],
+        edits: vec![Edit::Add(Box::new(curve))],
         figures: vec![
             Figure::count("vertices", "Vertices", found.polygon.vertices().len()),
             Figure::count("extrema", "Curvature extrema", found.extrema),

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::error::OperationError;
 use super::inputs::Inputs;
-use crate::document::{Curve, CurveId, Document, EditError};
+use crate::document::{Curve, CurveId, Document, EditError, Group};
 use crate::geometry::FloatPolygon;
 use crate::geometry::references::ReferenceCurve;
 
@@ -18,6 +18,8 @@ pub struct Operands {
     points: Vec<DVec3>,
     weights: Option<Vec<f64>>,
     reference: Option<ReferenceCurve>,
+    /// The group of the curve or the reference that comes first.
+    group: Group,
 }
 
 impl Operands {
@@ -33,10 +35,13 @@ impl Operands {
             let curve = document.curve(id).ok_or(EditError::NoSuchCurve)?;
             Ok((id, curve.clone()))
         };
-        let curves: Result<_, EditError> = curves.into_iter().map(found).collect();
+        let curves: Result<Vec<_>, EditError> = curves.into_iter().map(found).collect();
+        let curves = curves?;
+        let group = curves.first().map(|(_, curve)| curve.group.clone());
         Ok(Self {
             document: document.clone(),
-            curves: curves?,
+            group: group.unwrap_or_default(),
+            curves,
             points: Vec::new(),
             weights: None,
             reference: None,
@@ -75,7 +80,10 @@ impl Operands {
             (Inputs::Points, None, Some((_, curve))) => Some(curve.polygon.vertices().to_vec()),
             _ => None,
         };
+        let group = active.filter(|_| inputs != Inputs::None);
+        let group = group.and_then(|id| document.group(id));
         Ok(Self {
+            group: group.cloned().unwrap_or_default(),
             weights: reference.and_then(|it| it.weights()).map(<[f64]>::to_vec),
             ..operands.with_points(points.unwrap_or_default())
         })
@@ -114,6 +122,17 @@ impl Operands {
     /// How much each point counts, if they differ.
     pub fn weights(&self) -> Option<&[f64]> {
         self.weights.as_deref()
+    }
+
+    /// The group of a curve that is made: that of the reference it is made of, of the document's first that
+    /// is the same curve, or else that of the operand that comes first.
+    pub(super) fn group(&self, made_of: Option<&ReferenceCurve>) -> Group {
+        let Some(made_of) = made_of else {
+            return self.group.clone();
+        };
+        let mut references = self.document.references();
+        let found = references.find(|(_, reference)| reference.curve == *made_of);
+        found.map_or_else(Group::default, |(_, reference)| reference.group.clone())
     }
 
     /// Whether it is what an operation wants.

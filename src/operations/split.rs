@@ -90,6 +90,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     outcome.edits.extend(cut_off);
     let added_polygon = second.polygon;
     let mut added = Curve::new(document.free_name(&curve.name), added_polygon.clone());
+    added.group = curve.group.clone();
     added.colour = curve.colour;
     added.locked_vertices = locks::locks_of(curve, &added.polygon);
     added.targets.finish = curve.targets.finish;

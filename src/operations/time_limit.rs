@@ -81,8 +81,9 @@ impl Operation {
             }
             _ => {
                 let name = input.document().free_name(self.name);
-                let curves = best.into_iter();
-                let added = curves.map(|it| Edit::Add(Box::new(Curve::new(name.clone(), it))));
+                let group = input.group(values.given_reference());
+                let curves = best.into_iter().map(|it| Curve::new(name.clone(), it));
+                let added = curves.map(|it| Edit::Add(Box::new(it.in_group(group.clone()))));
                 added.collect()
             }
         }

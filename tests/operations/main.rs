@@ -9,6 +9,7 @@ mod degrees;
 mod descriptions;
 mod ends;
 mod fits;
+mod groups;
 mod harmony;
 mod joining;
 mod locks;

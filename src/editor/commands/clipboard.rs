@@ -226,7 +226,7 @@ fn selected_table(
     let degree = polygon.degree().min(indices.len().saturating_sub(1)).max(1);
     let part = FloatPolygon::new(degree, vertices, weights, false);
     let part = part.map_err(|error| format!("{}: {error}", quoted(&curve.name)))?;
-    let part = Curve::new(curve.name.clone(), part);
+    let part = Curve::new(curve.name.clone(), part).in_group(curve.group.clone());
     let part = Document::from_curves([part]).with_unit(unit);
     exported(TABLE.write(&part, Some(PolygonKind::Float)))
 }
