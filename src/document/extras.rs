@@ -11,6 +11,11 @@ impl Extras {
         self.0.push((key.into(), value.into()));
     }
 
+    /// Drop a key.
+    pub fn remove(&mut self, key: &str) {
+        self.0.retain(|(own, _)| own != key);
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! A project is written in the first version that holds all of it, so that older programs read what
-//! they can read. Version 2 adds `locked_vertices` to a curve, `curvature`, `normal` and `slope` to a
+//! they can read. Version 2 adds `locked_vertices` to a curve, the path of a `group`
+//! to a curve and to a reference ("Deck/Port"; `\/` stands for a `/` within a name), `curvature`, `normal` and `slope` to a
 //! target, and `matches`, `references`, the `unit` of length ("mm", "cm", "m" or "in"; left out if there
 //! is none) and `numbers` to the project. These number its curves, then its references, in the order in
 //! which they were made: the next colour of the palette goes by them. Without them they are counted
@@ -45,7 +46,7 @@ pub static PROJECT: Format = Format {
 /// Read a project.
 ///
 /// `polygon` may be float (also if it is not given), clamped or bezier; `weights`, `periodic`,
-/// `colour`, `visible`, `locked`, `locked_vertices` and `targets` may be left out. Further keys have no effect; those
+/// `group`, `colour`, `visible`, `locked`, `locked_vertices` and `targets` may be left out. Further keys have no effect; those
 /// of the project and of its curves are kept.
 ///
 /// # Errors

@@ -9,7 +9,7 @@ use super::object::{Object, UnknownKeys, Version};
 use super::polygon::FilePolygon;
 use super::project_values::{ByName, Coordinates, Degree, Number, points};
 use super::reading::{Owner, Remark, Remarks};
-use crate::document::{Colour, Curve, EndTargets};
+use crate::document::{Colour, Curve, EndTargets, Group};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{End, MAX_MAGNITUDE, PolygonKind};
 
@@ -19,6 +19,9 @@ use crate::geometry::{End, MAX_MAGNITUDE, PolygonKind};
 pub(super) struct ProjectCurve<V> {
     #[serde(default)]
     name: Option<String>,
+    /// The path of its group.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    group: Option<ByName<Group>>,
     degree: Degree,
     #[serde(default)]
     polygon: ByName<PolygonKind>,
@@ -89,6 +92,10 @@ impl<V> ProjectCurve<V> {
         losses.extend(curve, polygon.losses(&curve.polygon));
         let written = Self {
             name: Some(curve.name.clone()),
+            group: Some(&curve.group)
+                .filter(|it| !it.is_none())
+                .cloned()
+                .map(ByName),
             degree: Degree(polygon.degree),
             polygon: ByName(kind),
             colour: curve.colour.map(ByName),
@@ -109,6 +116,7 @@ impl<V> ProjectCurve<V> {
         let mut targets =
             targets.flat_map(|it| [&it.value.start, &it.value.end].into_iter().flatten());
         !self.locked_vertices.is_empty()
+            || self.group.is_some()
             || targets.any(|Object { value, .. }| {
                 value.curvature.is_some() || value.normal.is_some() || value.slope.is_some()
             })
@@ -155,6 +163,7 @@ impl<V> Object<ProjectCurve<V>, V> {
             remarks.add(Remark::unknown_key(&key, Owner::Targets { curve }));
         }
         Ok(Curve {
+            group: value.group.map(|group| group.0).unwrap_or_default(),
             colour: value.colour.map(|colour| colour.0),
             visible: value.visible.unwrap_or(true),
             locked: value.locked.unwrap_or(false),

@@ -22,6 +22,9 @@ use crate::geometry::expressions::LengthUnit;
 /// The value of the key `format` in a project.
 pub(super) const FORMAT: &str = "batten";
 
+/// The key of the group of a curve or of a reference.
+const GROUP: &str = "group";
+
 /// Version 1 of the project file.
 pub(super) struct Version1;
 
@@ -36,6 +39,7 @@ impl Version for Version1 {
         "matches",
         "numbers",
         "locked_vertices",
+        GROUP,
         "curvature",
         "normal",
         "slope",
@@ -109,6 +113,10 @@ impl ProjectFile<Version2> {
             || project.curves.iter().any(|it| it.value.needs_version_2())
         {
             project.version = Version2::NUMBER.into();
+            // An unknown key of version 1 must not become the group in version 2.
+            for curve in &mut project.curves {
+                curve.extras.remove(GROUP);
+            }
         }
         Object::new(project).with_extras(document.extras().clone())
     }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{Place, Problem, ReadError};
 use super::object::Object;
 use super::project_values::{self, ByName, Coordinates};
-use crate::document::{Colour, Reference};
+use crate::document::{Colour, Group, Reference};
 use crate::geometry::references::{
     AnalyticForm, Formula, KINDS, Nurbs, Placement, PointList, ReferenceCurve, ReferenceError,
     ReferenceForm, ReferenceKind, find,
@@ -20,6 +20,9 @@ use crate::geometry::references::{
 pub(super) struct ProjectReference {
     #[serde(default)]
     name: Option<String>,
+    /// The path of its group.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    group: Option<ByName<Group>>,
     #[serde(default, alias = "color", skip_serializing_if = "Option::is_none")]
     colour: Option<ByName<Colour>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -75,6 +78,10 @@ impl ProjectReference {
         let curve = &reference.curve;
         let mut written = Self {
             name: Some(reference.name.clone()),
+            group: Some(&reference.group)
+                .filter(|it| !it.is_none())
+                .cloned()
+                .map(ByName),
             colour: reference.colour.map(ByName),
             visible: (!reference.visible).then_some(false),
             locked: reference.locked.then_some(true),
@@ -132,10 +139,12 @@ impl ProjectReference {
     pub(super) fn into_reference(self, number: usize) -> Result<Reference, ReadError> {
         let given = self.name.clone().filter(|name| !name.trim().is_empty());
         let name = given.unwrap_or_else(|| format!("reference {number}"));
+        let group = self.group.clone().unwrap_or_default().0;
         let (colour, visible, locked) = (self.colour, self.visible, self.locked);
         let curve = self.into_curve();
         let curve = curve.map_err(|problem| Place::reference(number, &name).problem(problem))?;
         Ok(Reference {
+            group,
             colour: colour.map(|colour| colour.0),
             visible: visible.unwrap_or(true),
             locked: locked.unwrap_or(false),

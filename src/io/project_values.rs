@@ -7,7 +7,7 @@ use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::error::Problem;
-use crate::document::{Colour, quoted};
+use crate::document::{Colour, Group, quoted};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{Continuity, End, MAX_DEGREE, PolygonKind};
 
@@ -85,6 +85,18 @@ impl Named for PolygonKind {
 
     fn name(&self) -> Cow<'static, str> {
         Self::name(*self).into()
+    }
+}
+
+impl Named for Group {
+    const NEEDED: &'static str = "not a path of groups: names with / between them are needed";
+
+    fn of_name(name: &str) -> Option<Self> {
+        Some(name.into())
+    }
+
+    fn name(&self) -> Cow<'static, str> {
+        self.to_string().into()
     }
 }
 
