@@ -75,6 +75,8 @@ struct Report {
 #[derive(Serialize)]
 struct Inspected {
     name: String,
+    /// The path of its group; empty if it has none.
+    group: String,
     degree: usize,
     dimension: usize,
     periodic: bool,
@@ -156,6 +158,7 @@ fn inspected(curve: &Curve, at: &[f64], features: &Features) -> Inspected {
     };
     Inspected {
         name: curve.name.clone(),
+        group: curve.group.to_string(),
         degree: polygon.degree(),
         dimension: space.dimension,
         periodic: polygon.is_periodic(),

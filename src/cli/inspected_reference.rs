@@ -13,6 +13,8 @@ use crate::geometry::references::ReferenceForm;
 #[derive(Serialize)]
 pub(super) struct InspectedReference {
     name: String,
+    /// The path of its group; empty if it has none.
+    group: String,
     kind: &'static str,
     /// As the command line reads it; points have no text.
     text: Option<String>,
@@ -59,6 +61,7 @@ impl InspectedReference {
         let points = reference.points();
         Self {
             name: reference.name.clone(),
+            group: reference.group.to_string(),
             kind: curve.form().name(),
             text: curve.form().has_text().then(|| curve.to_string()),
             parameters: parameters(curve.form()),
