@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::document::{Curve, Document, Reference, quoted};
+use crate::document::{Curve, Document, Group, Reference, quoted};
 use crate::geometry::{End, PolygonKind, counted, rounded_up};
 
 /// Hold the bytes of a file to write, and their losses.
@@ -32,6 +32,13 @@ pub enum Loss {
     Name {
         /// The name written.
         written: String,
+    },
+    /// The name: the format has none beside that of the group.
+    NoName,
+    /// The group, or the names of its path that the format does not allow.
+    Group {
+        /// The group written, if the format has groups.
+        written: Option<Group>,
     },
     /// The curve's own colour.
     Colour,
@@ -125,6 +132,14 @@ impl LossReport {
         self.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
     }
 
+    /// Add the loss of the group of a curve or a reference of which a file holds other names.
+    pub fn add_group(&mut self, name: &str, group: &Group, written: Group) {
+        if *group != written {
+            let written = Some(written).filter(|written| !written.is_none());
+            self.losses.push((name.to_owned(), Loss::Group { written }));
+        }
+    }
+
     /// Add that a curve is not written.
     pub fn add_curve(&mut self, curve: &Curve) {
         self.add(curve, Loss::Curve);
@@ -174,6 +189,14 @@ impl fmt::Display for LossReport {
                 Loss::Name { written } => {
                     let written = quoted(written);
                     format!("the name is written as {written}, which {format} allows")
+                }
+                Loss::NoName => lost("the name of a curve in a group isn't"),
+                Loss::Group { written: None } => lost("the group isn't"),
+                Loss::Group {
+                    written: Some(written),
+                } => {
+                    let written = quoted(&written.to_string());
+                    format!("the group is written as {written}, which {format} allows")
                 }
                 Loss::Digits {
                     kind,

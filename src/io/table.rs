@@ -38,7 +38,7 @@ use super::table_header::{CurveHeader, TableHeader, begins_table};
 use super::table_lines::{COMMENT_MARKS, Fields, LineContent, TableLine, lines, separator};
 use super::table_points::{PointReader, PointSection};
 use super::text::text;
-use crate::document::{Curve, Document, Reference};
+use crate::document::{Curve, Document, Group, Reference};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{PolygonError, PolygonKind};
 
@@ -316,6 +316,7 @@ fn write_separated(
         let kind = polygon.unwrap_or_default();
         blocks.push(curve_block(curve, kind, losses, separator));
         losses.add_attributes(curve);
+        losses.add_group(&curve.name, &curve.group, Group::default());
         losses.add_if(!curve.visible, curve, Loss::Hidden);
         losses.add_if(curve.locked, curve, Loss::Locked);
     }
@@ -324,6 +325,7 @@ fn write_separated(
             Some(points) => {
                 blocks.push(points_block(reference, &points, separator));
                 losses.add_point_weights(reference);
+                losses.add_group(&reference.name, &reference.group, Group::default());
             }
             None => losses.add_reference(reference),
         }

@@ -1,25 +1,26 @@
 //! AutoCAD's drawing exchange format, version AC1015 (AutoCAD 2000), as it is written.
 //!
 //! Each curve is a SPLINE on clamped knots that start at 0, which is what readers agree on,
-//! with its polygons beside it as polylines on layers of their own. The header says the unit of the
+//! with its polygons beside it as polylines on layers of their own. The curves of a group share its layers;
+//! a curve without group has layers of its name, since entities have none. The header says the unit of the
 //! document, or that there is none.
 //! Numbers have the digits that it takes to read the very same number again.
 
 use glam::DVec3;
 
-use crate::document::{Curve, Document};
+use crate::document::{Curve, Document, Group};
 use crate::geometry::{ClampedPolygon, PolygonKind};
 use crate::io::error::WriteError;
 use crate::io::exchange;
 use crate::io::format::{ExportRow, Format};
-use crate::io::layer_names::LayerNames;
 use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
 
 mod frame;
+mod layers;
 mod writer;
 
-use frame::Layer;
+use layers::Layers;
 use writer::Writer;
 
 /// The row of the table of formats.
@@ -78,8 +79,7 @@ fn drawing(
     if document.curves().len() == 0 {
         return Err(WriteError::NoCurves { format });
     }
-    let mut names = LayerNames::new();
-    let mut layers = Vec::new();
+    let mut layers = Layers::new(kinds);
     let mut entities = Writer::new();
     let mut reach = Reach::default();
     for (_, curve) in document.curves() {
@@ -100,13 +100,11 @@ fn drawing(
                 most,
             });
         }
-        let base = names.take(&curve.name, &PolygonKind::ALL.map(suffix));
+        let base = layers.take(curve);
         report(curve, &base, kinds, losses);
-        layers.push(Layer::of(curve, base.clone(), None));
         spline(&mut entities, curve, &base, &mut reach);
         for &kind in kinds {
-            let layer = format!("{base}{}", suffix(kind));
-            layers.push(Layer::of(curve, layer.clone(), Some(kind)));
+            let layer = format!("{base}{}", layers::suffix(kind));
             polyline(&mut entities, curve, kind, &layer, &mut reach);
         }
     }
@@ -114,7 +112,7 @@ fn drawing(
         losses.add_reference(reference);
     }
     let reach = (reach.low, reach.high);
-    let text = frame::drawing(&layers, entities, document.unit(), reach);
+    let text = frame::drawing(layers.list(), entities, document.unit(), reach);
     Ok(text.into_bytes())
 }
 
@@ -142,17 +140,12 @@ impl Reach {
     }
 }
 
-fn suffix(kind: PolygonKind) -> &'static str {
-    match kind {
-        PolygonKind::Float => " float polygon",
-        PolygonKind::Clamped => " closed polygon",
-        PolygonKind::Bezier => " bezier polygon",
-    }
-}
-
 fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossReport) {
-    if layer != curve.name {
-        let written = layer.to_owned();
+    let written = layer.to_owned();
+    if !curve.group.is_none() {
+        losses.add(curve, Loss::NoName);
+        losses.add_group(&curve.name, &curve.group, Group::new([written]));
+    } else if layer != curve.name {
         losses.add(curve, Loss::Name { written });
     }
     losses.add_attributes(curve);

@@ -148,7 +148,7 @@ fn one_polygon_can_be_chosen() {
         assert_eq!(entities(&groups, "SPLINE").len(), 1);
         let polylines = entities(&groups, "LWPOLYLINE");
         assert_eq!(polylines.len(), 1);
-        assert_eq!(values(polylines[0], 8), [format!("a{}", suffix(kind))]);
+        assert_eq!(values(polylines[0], 8), [format!("a{}", layers::suffix(kind))]);
     }
 }
 

@@ -2,7 +2,7 @@
 //! "group"}]}`.
 //!
 //! `unit` is mm, cm, m, in or null; a bare list of curves is read as well. Points have two or three
-//! coordinates. `group` is the path of groups, joined by `/`; a list of names is read as well. Knots,
+//! coordinates. `group` is the path of groups, joined by `/`, or a list of names if one holds a `/`. Knots,
 //! weights, names and the rest may be missing: curves without knots are clamped and uniform.
 
 mod reader;

@@ -1,7 +1,7 @@
 //! The rows of the table of formats for CAD and drawing programs.
 
 use super::drawing::{Drawing, Unreadable};
-use super::writing::Written;
+use super::writing::{KeptGroup, Written};
 use super::{brep, curve_json, glif, iges, obj, step, svg, threedm};
 use crate::document::Document;
 use crate::geometry::PolygonKind;
@@ -30,7 +30,7 @@ pub static STEP: Format = Format {
     extensions: &["step", "stp", "p21"],
     draw: Some(step::read),
     write: Some(|document, knots, losses| {
-        written(document, knots, losses, |drawing, name| {
+        written(document, knots, losses, joined, |drawing, name| {
             step::write(drawing, name, step::Protocol::Ap214)
         })
     }),
@@ -50,7 +50,7 @@ pub static STEP_AP242: Format = Format {
     extensions: &["ap242"],
     draw: Some(step::read),
     write: Some(|document, knots, losses| {
-        written(document, knots, losses, |drawing, name| {
+        written(document, knots, losses, joined, |drawing, name| {
             step::write(drawing, name, step::Protocol::Ap242)
         })
     }),
@@ -62,7 +62,7 @@ pub static IGES: Format = Format {
     name: "IGES",
     extensions: &["igs", "iges"],
     draw: Some(iges::read),
-    write: Some(|document, knots, losses| written(document, knots, losses, iges::write)),
+    write: Some(|document, knots, losses| written(document, knots, losses, joined, iges::write)),
     exports: &[ExportRow {
         label: "Export IGES…",
         help: "Export curves as B-splines for older CAD programs",
@@ -78,7 +78,9 @@ pub static THREEDM: Format = Format {
     name: "3DM",
     extensions: &["3dm"],
     draw: Some(threedm::read),
-    write: Some(|document, knots, losses| written(document, knots, losses, threedm::write)),
+    write: Some(|document, knots, losses| {
+        written(document, knots, losses, threedm::kept_group, threedm::write)
+    }),
     exports: &[ExportRow {
         label: "Export 3DM…",
         help: "Export curves with their names and colours for Rhino",
@@ -94,7 +96,15 @@ pub static SVG: Format = Format {
     name: "SVG",
     extensions: &["svg"],
     draw: Some(svg::read),
-    write: Some(|document, _, losses| drawn(document, Written::Cubics, losses, svg::write)),
+    write: Some(|document, _, losses| {
+        drawn(
+            document,
+            Written::Cubics,
+            losses,
+            svg::kept_group,
+            svg::write,
+        )
+    }),
     exports: &[ExportRow {
         label: "Export SVG…",
         help: "Export planar curves as Béziers, 1 : 1 in millimetres",
@@ -110,7 +120,7 @@ pub static GLIF: Format = Format {
     name: "GLIF",
     extensions: &["glif"],
     draw: Some(glif::read),
-    write: Some(|document, _, losses| drawn(document, Written::Cubics, losses, glif::write)),
+    write: Some(|document, _, losses| drawn(document, Written::Cubics, losses, none, glif::write)),
     ..NONE
 };
 
@@ -119,7 +129,9 @@ pub static OBJ: Format = Format {
     name: "OBJ",
     extensions: &["obj"],
     draw: Some(obj::read),
-    write: Some(|document, knots, losses| written(document, knots, losses, obj::write)),
+    write: Some(|document, knots, losses| {
+        written(document, knots, losses, obj::kept_group, obj::write)
+    }),
     ..NONE
 };
 
@@ -129,7 +141,7 @@ pub static BREP: Format = Format {
     extensions: &["brep", "brp"],
     draw: Some(brep::read),
     write: Some(|document, knots, losses| {
-        written(document, knots, losses, |drawing, name| {
+        written(document, knots, losses, none, |drawing, name| {
             brep::write(&drawing.in_millimetres(), name)
         })
     }),
@@ -141,29 +153,49 @@ pub static CURVE_JSON: Format = Format {
     name: "JSON",
     extensions: &["json"],
     draw: Some(curve_json::read),
-    write: Some(|document, knots, losses| written(document, knots, losses, curve_json::write)),
+    write: Some(|document, knots, losses| {
+        written(
+            document,
+            knots,
+            losses,
+            <[String]>::to_vec,
+            curve_json::write,
+        )
+    }),
     ..NONE
 };
+
+/// The path that formats keep whose layers have one name, with `/` between the names of groups.
+fn joined(path: &[String]) -> Vec<String> {
+    path.join("/").split('/').map(str::to_owned).collect()
+}
+
+/// The path that formats without layers keep.
+fn none(_: &[String]) -> Vec<String> {
+    Vec::new()
+}
 
 /// Write a document on the knots of a polygon; without a choice on clamped ones.
 fn written(
     document: &Document,
     knots: Option<PolygonKind>,
     losses: &mut LossReport,
+    kept: KeptGroup,
     write: WriteDrawing,
 ) -> Result<Vec<u8>, WriteError> {
     let knots = knots.unwrap_or(PolygonKind::Clamped);
-    drawn(document, Written::Knots(knots), losses, write)
+    drawn(document, Written::Knots(knots), losses, kept, write)
 }
 
 fn drawn(
     document: &Document,
     way: Written,
     losses: &mut LossReport,
+    kept: KeptGroup,
     write: WriteDrawing,
 ) -> Result<Vec<u8>, WriteError> {
     let format = losses.format;
-    let drawing = Drawing::of(document, way, losses)?;
+    let drawing = Drawing::of(document, way, kept, losses)?;
     let name = drawing.items.first().and_then(|item| item.name.clone());
     let bytes = write(&drawing, name.as_deref().unwrap_or("curves"));
     bytes.map_err(|Unreadable { reason, .. }| WriteError::Refused { format, reason })

@@ -18,6 +18,11 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     reader::read(bytes)
 }
 
+/// The names of a group's path that a file holds.
+pub fn kept_group(path: &[String]) -> Vec<String> {
+    reader::group(&writer::group_name(path))
+}
+
 /// Write all items: splines and arcs as B-splines, polylines as lines, points as points.
 pub fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable> {
     writer::write(drawing, name)

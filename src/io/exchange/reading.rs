@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use glam::{DMat3, DQuat, DVec3};
 
 use super::drawing::{Affine, Conic, Drawing, Item, Kind, Nurbs as DrawnNurbs, Shape, Space};
-use crate::document::{Colour, Curve, Reference};
+use crate::document::{Colour, Curve, Group, Reference};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{
     AnalyticForm, Nurbs, Placement, PointList, ReferenceCurve, ReferenceError, ReferenceForm,
@@ -38,6 +38,7 @@ impl Drawing {
                 ..Reading::default()
             },
             names: Names::default(),
+            chains: Names::default(),
             points: Vec::new(),
             factor,
         };
@@ -96,17 +97,20 @@ fn seen(colour: [u8; 3]) -> Option<Colour> {
 struct Taken {
     reading: Reading,
     names: Names,
-    /// The single points, which make one reference.
-    points: Vec<DVec3>,
+    /// The names of items of several pieces, each of which is a group.
+    chains: Names,
+    /// The single points, which make one reference, with their groups.
+    points: Vec<(DVec3, Group)>,
     factor: f64,
 }
 
 impl Taken {
     fn take(&mut self, item: &Item) {
         let shapes = item.shapes.len();
+        let group = self.group(item);
         for (index, shape) in item.shapes.iter().enumerate() {
             if let Shape::Point(point) = shape {
-                self.points.push(self.factor * *point);
+                self.points.push((self.factor * *point, group.clone()));
                 continue;
             }
             let name = match &item.name {
@@ -115,9 +119,9 @@ impl Taken {
                 None => self.names.of_kind(item.kind),
             };
             match made(scaled(shape, self.factor)) {
-                Ok(Made::Curve(near)) => self.add_curve(name, near, item.colour),
+                Ok(Made::Curve(near)) => self.add_curve(name, near, item.colour, group.clone()),
                 Ok(Made::Reference(curve)) => {
-                    let mut reference = Reference::new(name, curve);
+                    let mut reference = Reference::new(name, curve).in_group(group.clone());
                     reference.colour = item.colour.and_then(seen);
                     self.reading.references.push(reference);
                 }
@@ -126,7 +130,22 @@ impl Taken {
         }
     }
 
-    fn add_curve(&mut self, name: String, near: NearestFloat, colour: Option<[u8; 3]>) {
+    /// The group of what an item becomes: its path, its block, and the item itself if it has several pieces.
+    fn group(&mut self, item: &Item) -> Group {
+        let chain = (item.shapes.len() > 1).then(|| match &item.name {
+            Some(name) => self.chains.free(name),
+            None => self.chains.of_kind(item.kind),
+        });
+        Group::new(item.group.iter().chain(&item.block).chain(&chain))
+    }
+
+    fn add_curve(
+        &mut self,
+        name: String,
+        near: NearestFloat,
+        colour: Option<[u8; 3]>,
+        group: Group,
+    ) {
         let number = self.reading.curves.len() + 1;
         if !near.is_close {
             self.reading.remarks.add(Remark::CurveOff {
@@ -135,7 +154,7 @@ impl Taken {
                 by: near.deviation,
             });
         }
-        let mut curve = Curve::new(name, near.polygon);
+        let mut curve = Curve::new(name, near.polygon).in_group(group);
         curve.colour = colour.and_then(seen);
         self.reading.curves.push(curve);
     }
@@ -196,12 +215,23 @@ impl Taken {
         self.reading
     }
 
-    fn add_points(&mut self, points: Vec<DVec3>) {
+    fn add_points(&mut self, points: Vec<(DVec3, Group)>) {
+        let (points, groups): (Vec<DVec3>, Vec<Group>) = points.into_iter().unzip();
+        // Points of several groups are in none.
+        let mut groups = groups.into_iter();
+        let first = groups.next().unwrap_or_default();
+        let group = match groups.all(|group| group == first) {
+            true => first,
+            false => Group::default(),
+        };
         let name = self.names.free("points");
         let list = PointList::new(points);
         let curve = list.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
         match curve {
-            Ok(curve) => self.reading.references.push(Reference::new(name, curve)),
+            Ok(curve) => {
+                let reference = Reference::new(name, curve).in_group(group);
+                self.reading.references.push(reference);
+            }
             Err(error) => self.tell(format!("the points are left out: {error}")),
         }
     }

@@ -2,12 +2,15 @@
 
 use super::cubics::Cubics;
 use super::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
-use crate::document::{Curve, Document};
+use crate::document::{Curve, Document, Group};
 use crate::geometry::PolygonKind;
 use crate::geometry::references::{ReferenceCurve, ReferenceForm};
 use crate::io::error::WriteError;
 use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
+
+/// The names that a format holds of the path of a group.
+pub(super) type KeptGroup = fn(&[String]) -> Vec<String>;
 
 /// How curves are written.
 #[derive(Clone, Copy)]
@@ -20,12 +23,14 @@ pub(super) enum Written {
 
 impl Drawing {
     /// Take curves by one of their polygons or as cubics, and references that formats of other programs can hold.
+    /// `kept` tells what the format holds of their groups.
     ///
     /// # Errors
     /// [`WriteError::NoCurves`].
     pub(super) fn of(
         document: &Document,
         written: Written,
+        kept: KeptGroup,
         losses: &mut LossReport,
     ) -> Result<Self, WriteError> {
         let mut drawing = Self {
@@ -34,17 +39,23 @@ impl Drawing {
         };
         for (_, curve) in document.curves() {
             report(curve, losses);
+            report_group(&curve.name, &curve.group, kept, losses);
             drawing.items.push(Item {
+                group: curve.group.names().to_vec(),
                 colour: curve.colour.map(|colour| colour.0),
                 ..named(&curve.name, Kind::Spline, written.shape(curve, losses))
             });
         }
         for (_, reference) in document.references() {
             match shape(&reference.curve) {
-                Some((kind, shape)) => drawing.items.push(Item {
-                    colour: reference.colour.map(|colour| colour.0),
-                    ..named(&reference.name, kind, shape)
-                }),
+                Some((kind, shape)) => {
+                    report_group(&reference.name, &reference.group, kept, losses);
+                    drawing.items.push(Item {
+                        group: reference.group.names().to_vec(),
+                        colour: reference.colour.map(|colour| colour.0),
+                        ..named(&reference.name, kind, shape)
+                    });
+                }
                 None => losses.add_reference(reference),
             }
         }
@@ -94,6 +105,12 @@ fn report(curve: &Curve, losses: &mut LossReport) {
     losses.losses.retain(|(_, loss)| *loss != Loss::Colour);
     losses.add_if(!curve.visible, curve, Loss::Hidden);
     losses.add_if(curve.locked, curve, Loss::Locked);
+}
+
+fn report_group(name: &str, group: &Group, kept: KeptGroup, losses: &mut LossReport) {
+    if !group.is_none() {
+        losses.add_group(name, group, Group::new(kept(group.names())));
+    }
 }
 
 fn spline(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> Shape {

@@ -32,7 +32,25 @@ struct Curve<'i> {
     points: Vec<[f64; 3]>,
     weights: Option<Vec<f64>>,
     periodic: bool,
-    group: Option<String>,
+    group: Option<Group>,
+}
+
+/// The path of a group: joined, or a list where that could not be taken apart again.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Group {
+    Joined(String),
+    List(Vec<String>),
+}
+
+impl Group {
+    fn of(path: &[String]) -> Option<Self> {
+        let is_joinable = !path.iter().any(|name| name.contains('/'));
+        (!path.is_empty()).then(|| match is_joinable {
+            true => Self::Joined(path.join("/")),
+            false => Self::List(path.to_vec()),
+        })
+    }
 }
 
 fn curves<'i>(drawing: &Drawing, item: &'i Item, scale: f64) -> Result<Vec<Curve<'i>>, Unreadable> {
@@ -55,7 +73,7 @@ fn curves<'i>(drawing: &Drawing, item: &'i Item, scale: f64) -> Result<Vec<Curve
             knots: nurbs.knots,
             weights: nurbs.weights,
             periodic: nurbs.periodic,
-            group: (!item.group.is_empty()).then(|| item.group.join("/")),
+            group: Group::of(&item.group),
         });
     }
     Ok(curves)

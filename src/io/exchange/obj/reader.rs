@@ -308,7 +308,8 @@ fn vertex(rest: &str) -> Result<(DVec3, f64), String> {
     Ok((point, weight))
 }
 
-fn group(rest: &str) -> Vec<String> {
+/// Read the path of a group.
+pub(super) fn group(rest: &str) -> Vec<String> {
     if rest == DEFAULT_GROUP {
         return Vec::new();
     }

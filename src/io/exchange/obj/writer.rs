@@ -127,7 +127,8 @@ fn line(text: &str) -> String {
     }
 }
 
-fn group_name(group: &[String]) -> String {
+/// Write the path of a group.
+pub(super) fn group_name(group: &[String]) -> String {
     match group {
         [] => DEFAULT_GROUP.to_owned(),
         _ => line(&group.join("/")),

@@ -31,6 +31,11 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     document::read(&source, bytes.len())
 }
 
+/// The names of a group's path that a file holds.
+pub fn kept_group(path: &[String]) -> Vec<String> {
+    writer::shortened(path)
+}
+
 /// Write a drawing to scale, in millimetres; refuse what SVG cannot hold exactly.
 pub fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable> {
     writer::write(drawing, name)

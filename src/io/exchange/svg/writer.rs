@@ -212,7 +212,8 @@ fn layered(drawing: &Drawing) -> Vec<(&Item, Vec<String>)> {
         .collect()
 }
 
-fn shortened(group: &[String]) -> Vec<String> {
+/// The path of a group, its innermost names joined where there are too many.
+pub(super) fn shortened(group: &[String]) -> Vec<String> {
     let (outer, inner) = group.split_at(group.len().min(DEPTH_LIMIT - 1));
     let mut path = outer.to_vec();
     if !inner.is_empty() {

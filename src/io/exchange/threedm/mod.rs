@@ -33,6 +33,13 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     table::scene(bytes).map(scene::Scene::drawing)
 }
 
+/// The names of a group's path that a file holds.
+pub fn kept_group(path: &[String]) -> Vec<String> {
+    path.iter()
+        .map(|name| writer::layer_name(Some(name)))
+        .collect()
+}
+
 /// Write a 3DM file: curves without a group come onto the layer `name`.
 pub fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable> {
     writer::write(drawing, name)

@@ -215,7 +215,7 @@ impl<'a> LayerTable<'a> {
 }
 
 /// A name that Rhino accepts: it replaces others by names of its own.
-fn layer_name(name: Option<&String>) -> String {
+pub(super) fn layer_name(name: Option<&String>) -> String {
     let name: String = name
         .into_iter()
         .flat_map(|it| it.chars())
