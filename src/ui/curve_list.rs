@@ -1,31 +1,47 @@
-//! The list of curves, and of references below them.
+//! The list of curves, and of references below them, by groups.
 
-use eframe::egui::{
-    Align2, Color32, Context, CursorIcon, Id, Key, Rect, Response, Role, Sense, TextEdit, Ui,
-    UiBuilder, Vec2, WidgetInfo, vec2,
-};
+use std::collections::BTreeSet;
+
+use eframe::egui::{Align2, Context, Id, Key, Rect, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
 use lucide_icons::Icon;
 
 use super::action::Action;
+use super::curve_item::Item;
 use super::draft;
+use super::group_heading::Heading;
+use super::group_rows::{Row, rows};
 use super::keyboard::{self, Typing};
-use super::theme::{ROW, STEP, Tokens};
+use super::theme::{ROW, STEP};
 use super::widgets::{self, IconButton};
-use crate::document::{Colour, CurveId, Edit};
+use crate::document::{CurveId, Document, Edit, Group};
 use crate::editor::{Command, Editor, MenuOf, told};
 
-/// The list's own state: the name that is being typed.
+/// How far each group indents its rows.
+const INDENT: f32 = 3.0 * STEP;
+
+/// The list's own state: the name that is being typed, and the groups that are folded.
 #[derive(Default)]
 pub struct CurveList {
     renaming: Option<Renaming>,
+    /// The groups of which only the headings are shown.
+    folded: BTreeSet<Group>,
     /// Whether only the heading is shown.
     is_collapsed: bool,
     /// The curve or reference whose row the list scrolled to when it became active.
     in_sight: Option<CurveId>,
 }
 
+/// What gets another name.
+#[derive(Clone, PartialEq)]
+enum Named {
+    /// A curve or a reference.
+    Item(CurveId),
+    /// A group.
+    Group(Group),
+}
+
 struct Renaming {
-    curve: CurveId,
+    named: Named,
     text: String,
     is_new: bool,
 }
@@ -39,7 +55,10 @@ impl CurveList {
     /// Open the field for another name of the active curve or reference.
     pub fn rename_active(&mut self, context: &Context, editor: &Editor) {
         if let Some(active) = editor.active() {
-            self.begin_renaming(context, editor, active);
+            if let Some(group) = editor.document().group(active) {
+                self.folded.retain(|folded| !folded.holds(group));
+            }
+            self.begin_renaming(context, editor, Named::Item(active));
         }
     }
 
@@ -48,10 +67,17 @@ impl CurveList {
         if self.is_collapsed {
             return ROW;
         }
-        let document = editor.document();
-        let rows = document.all_ids().count();
+        let rows = self.row_count(editor.document());
         // The note of an empty list wraps to two lines.
         ROW + ui.spacing().item_spacing.y + ROW * rows.max(2) as f32
+    }
+
+    /// How many rows are shown.
+    fn row_count(&self, document: &Document) -> usize {
+        let curves = document.curves().map(|(_, curve)| &curve.group);
+        let references = document.references().map(|(_, it)| &it.group);
+        let groups: Vec<&Group> = curves.chain(references).collect();
+        rows(&groups, |group| group, &self.folded).len()
     }
 
     /// Show the list with its heading.
@@ -68,27 +94,33 @@ impl CurveList {
         let renamed = widgets::scrolling(ui, "curves", |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             let mut renamed = None;
-            for item in Item::all(editor) {
-                if self.row_ui(ui, editor, &item) {
-                    renamed = Some(item.id);
-                }
+            let items = Item::all(editor);
+            for row in rows(&items, |item| &item.group, &self.folded.clone()) {
+                let named = match row {
+                    Row::Group(group) => self.group_ui(ui, editor, &group.into()),
+                    Row::Item { item, depth } => self.row_ui(ui, editor, item, depth),
+                };
+                renamed = named.or(renamed);
             }
             self.in_sight = editor.active();
             renamed
         });
         // The field takes the keyboard after the row that was clicked has had it.
-        if let Some(curve) = renamed {
-            self.begin_renaming(ui.ctx(), editor, curve);
+        if let Some(named) = renamed {
+            self.begin_renaming(ui.ctx(), editor, named);
         }
     }
 
     /// Open the field for a name; from now on keys are the field's.
-    fn begin_renaming(&mut self, context: &Context, editor: &Editor, curve: CurveId) {
-        let text = editor.document().name(curve).map(str::to_owned);
+    fn begin_renaming(&mut self, context: &Context, editor: &Editor, named: Named) {
+        let text = match &named {
+            Named::Item(id) => editor.document().name(*id).map(str::to_owned),
+            Named::Group(group) => Some(group.to_string()),
+        };
         self.renaming = text.map(|text| {
             draft::select_all(context, field_id(), &text);
             Renaming {
-                curve,
+                named,
                 text,
                 is_new: true,
             }
@@ -97,14 +129,54 @@ impl CurveList {
         context.memory_mut(|memory| memory.request_focus(field_id()));
     }
 
-    /// Show a row; returns whether a double-click renames it.
-    fn row_ui(&mut self, ui: &mut Ui, editor: &mut Editor, item: &Item) -> bool {
-        let (rect, response) = widgets::row(ui, Sense::click_and_drag(), item.active);
+    /// Show the heading of a group; returns the group if a double-click renames it.
+    fn group_ui(&mut self, ui: &mut Ui, editor: &mut Editor, heading: &Heading) -> Option<Named> {
+        let (row, response) = widgets::row(ui, Sense::click(), false);
+        let rect = indented(row, heading.depth);
+        heading.paint(ui, rect, &response);
+        heading.take_dropped(ui, editor, row, &response);
+        if response.clicked() {
+            self.fold(&heading.group, !heading.is_folded);
+        }
+        let inner = rect.shrink2(vec2(2.0 * STEP, 0.0));
+        let builder = UiBuilder::new().max_rect(inner).id_salt(&heading.group);
+        ui.scope_builder(builder, |ui| {
+            widgets::at_right(ui, |ui| {
+                ui.spacing_mut().item_spacing.x = 0.0;
+                heading.switches_ui(ui, editor, row);
+            });
+        });
+        let renames = response.double_clicked();
+        let named = Named::Group(heading.group.clone());
+        match self.renaming.as_ref().is_some_and(|it| it.named == named) {
+            true => self.renaming_ui(ui, editor, name_rect(inner)),
+            false => heading.name_ui(ui, name_rect(inner), response),
+        }
+        renames.then_some(named)
+    }
+
+    fn fold(&mut self, group: &Group, is_folded: bool) {
+        match is_folded {
+            true => self.folded.insert(group.clone()),
+            false => self.folded.remove(group),
+        };
+    }
+
+    /// Show a row; returns the item if a double-click renames it.
+    fn row_ui(
+        &mut self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        item: &Item,
+        depth: usize,
+    ) -> Option<Named> {
+        let (row, response) = widgets::row(ui, Sense::click_and_drag(), item.active);
+        let rect = indented(row, depth);
         item.paint(ui, rect, &response);
         if item.active && self.in_sight != Some(item.id) {
             ui.scroll_to_rect(rect, None);
         }
-        item.reorder(ui, editor, rect, &response);
+        item.reorder(ui, editor, row, &response);
         let renames = response.double_clicked();
         if response.clicked() && !renames {
             match ui.input(|input| input.modifiers.command) && !item.active {
@@ -123,17 +195,15 @@ impl CurveList {
         ui.scope_builder(builder, |ui| {
             widgets::at_right(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 0.0;
-                item.switches_ui(ui, editor, rect);
+                item.switches_ui(ui, editor, row);
             });
         });
-        let low = inner.min + vec2(6.0 * STEP, 0.0);
-        let name = Rect::from_min_max(low, inner.max - vec2(2.0 * ROW + STEP, 0.0));
-        let renaming = self.renaming.as_ref().map(|renaming| renaming.curve);
-        match renaming == Some(item.id) {
-            true => self.renaming_ui(ui, editor, name),
-            false => item.name_ui(ui, name, response),
+        let named = Named::Item(item.id);
+        match self.renaming.as_ref().is_some_and(|it| it.named == named) {
+            true => self.renaming_ui(ui, editor, name_rect(inner)),
+            false => item.name_ui(ui, name_rect(inner), response),
         }
-        renames
+        renames.then_some(named)
     }
 
     fn renaming_ui(&mut self, ui: &mut Ui, editor: &mut Editor, rect: Rect) {
@@ -145,7 +215,11 @@ impl CurveList {
             .align(Align2::LEFT_CENTER)
             .min_size(rect.size())
             .desired_width(rect.width());
-        let response = ui.put(rect, field).accessible_name("Curve name");
+        let label = match renaming.named {
+            Named::Item(_) => "Curve name",
+            Named::Group(_) => "Group path",
+        };
+        let response = ui.put(rect, field).accessible_name(label);
         keyboard::claim(ui.ctx(), field_id(), Typing::Text, rect);
         if renaming.is_new {
             ui.scroll_to_rect(rect, None);
@@ -154,12 +228,35 @@ impl CurveList {
             return;
         }
         let is_cancelled = ui.input(|input| input.key_pressed(Key::Escape));
-        if let Some(Renaming { curve, text, .. }) = self.renaming.take()
+        if let Some(Renaming { named, text, .. }) = self.renaming.take()
             && !is_cancelled
         {
-            told(editor.change(Edit::Rename { curve, name: text }));
+            match named {
+                Named::Item(curve) => told(editor.change(Edit::Rename { curve, name: text })),
+                Named::Group(group) => rename_group(editor, group, &text),
+            }
         }
     }
+}
+
+/// Give a group the path that was typed; an empty one dissolves it.
+fn rename_group(editor: &mut Editor, group: Group, text: &str) {
+    let to = Group::from(text);
+    if to != group {
+        told(editor.change(Edit::RenameGroup { group, to }));
+    }
+}
+
+/// The part of a row that a group within so many others has.
+fn indented(row: Rect, depth: usize) -> Rect {
+    let left = row.left() + depth as f32 * INDENT;
+    Rect::from_min_max(pos2(left, row.top()), row.max)
+}
+
+/// The room for the name in a row.
+fn name_rect(inner: Rect) -> Rect {
+    let low = inner.min + vec2(6.0 * STEP, 0.0);
+    Rect::from_min_max(low, inner.max - vec2(2.0 * ROW + STEP, 0.0))
 }
 
 fn reorder(editor: &mut Editor, curve: CurveId, place: usize) {
@@ -196,24 +293,21 @@ fn heading_ui(
             }
             let items = Item::all(editor);
             let active = items.iter().find(|item| item.active);
-            let count = active.map_or(0, |active| {
-                let is_same = |it: &&Item| it.is_reference == active.is_reference;
-                items.iter().filter(is_same).count()
-            });
-            let place = active.map(|active| active.place);
-            for (icon, name, to) in [
+            let beside = |active: &Item, is_on_side: fn(usize, usize) -> bool| {
+                let beside = items.iter().filter(|item| item.is_beside(active));
+                let places = beside.map(|item| item.place);
+                let places = places.filter(|place| is_on_side(*place, active.place));
+                places.min_by_key(|place| place.abs_diff(active.place))
+            };
+            for (icon, name, is_on_side) in [
                 (
                     Icon::ArrowDown,
                     "Move curve down",
-                    place.map(|place| place + 1),
+                    (|place, own| place > own) as fn(usize, usize) -> bool,
                 ),
-                (
-                    Icon::ArrowUp,
-                    "Move curve up",
-                    place.and_then(|place| place.checked_sub(1)),
-                ),
+                (Icon::ArrowUp, "Move curve up", |place, own| place < own),
             ] {
-                let to = active.zip(to.filter(|to| *to < count));
+                let to = active.and_then(|active| Some((active, beside(active, is_on_side)?)));
                 let response = IconButton::new(icon, name).enabled(to.is_some()).show(ui);
                 if let (true, Some((active, place))) = (response.clicked(), to) {
                     reorder(editor, active.id, place);
@@ -221,156 +315,4 @@ fn heading_ui(
             }
         });
     });
-}
-
-/// What a curve and a reference have in common.
-pub struct Item {
-    /// Its identity.
-    pub id: CurveId,
-    is_reference: bool,
-    /// Its name.
-    pub name: String,
-    /// Its own colour; `None` takes the theme's.
-    pub colour: Option<Colour>,
-    /// Whether it is drawn.
-    pub visible: bool,
-    /// Whether its shape is protected from edits.
-    pub locked: bool,
-    /// Its place among the curves, or among the references.
-    place: usize,
-    active: bool,
-}
-
-impl Item {
-    /// List all curves, then all references.
-    fn all(editor: &Editor) -> Vec<Self> {
-        let (document, active) = (editor.document(), editor.active());
-        let curves = document.curves().enumerate();
-        let curves = curves.map(|(place, (id, curve))| Self {
-            id,
-            is_reference: false,
-            name: curve.name.clone(),
-            colour: curve.colour,
-            visible: curve.visible,
-            locked: curve.locked,
-            place,
-            active: active == Some(id),
-        });
-        let references = document.references().enumerate();
-        let references = references.map(|(place, (id, reference))| Self {
-            id,
-            is_reference: true,
-            name: reference.name.clone(),
-            colour: reference.colour,
-            visible: reference.visible,
-            locked: reference.locked,
-            place,
-            active: active == Some(id),
-        });
-        curves.chain(references).collect()
-    }
-
-    /// The active curve or reference.
-    pub fn active(editor: &Editor) -> Option<Self> {
-        Self::all(editor).into_iter().find(|item| item.active)
-    }
-
-    /// The colour that it is shown in.
-    pub fn shown_colour(&self, tokens: &Tokens) -> Color32 {
-        tokens.of_item(Some(self.id), self.colour, self.is_reference)
-    }
-
-    /// What screen readers and tooltips call it.
-    fn noun(&self) -> &'static str {
-        match self.is_reference {
-            true => "reference",
-            false => "curve",
-        }
-    }
-
-    fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
-        let colour = self.shown_colour(Tokens::of(ui));
-        let centre = rect.left_center() + vec2(4.0 * STEP, 0.0);
-        let swatch = Rect::from_center_size(centre, Vec2::splat(3.0 * STEP));
-        match self.is_reference {
-            true => widgets::icon(ui, swatch, Icon::SplinePointer, colour),
-            false => widgets::swatch(ui, swatch, colour),
-        }
-        let label = format!("{} {}", self.noun(), self.name);
-        response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, self.active, &label));
-    }
-
-    /// Show the name; a tooltip shows all of one that does not fit.
-    fn name_ui(&self, ui: &Ui, rect: Rect, response: Response) {
-        let tokens = Tokens::of(ui);
-        let colour = match (self.active, self.visible) {
-            (true, _) => tokens.strong_text,
-            (false, true) => tokens.text,
-            (false, false) => tokens.faint_text,
-        };
-        if widgets::label_in(ui, rect, &self.name, colour) {
-            response.on_hover_text(&self.name);
-        }
-    }
-
-    /// A row can be dragged to another place.
-    fn reorder(&self, ui: &Ui, editor: &mut Editor, rect: Rect, response: &Response) {
-        if response.drag_started() {
-            response.dnd_set_drag_payload(self.id);
-        }
-        if response.dragged() {
-            ui.set_cursor_icon(CursorIcon::Grabbing);
-        }
-        let hovering = response.dnd_hover_payload::<CurveId>();
-        if hovering.is_some_and(|dragged| *dragged != self.id) {
-            widgets::outline(ui, rect, 1.5, Tokens::of(ui).accent);
-        }
-        let dropped = response.dnd_release_payload::<CurveId>();
-        if let Some(dropped) = dropped.filter(|dropped| **dropped != self.id) {
-            reorder(editor, *dropped, self.place);
-        }
-    }
-
-    fn switches_ui(&self, ui: &mut Ui, editor: &mut Editor, row: Rect) {
-        let tokens = Tokens::of(ui);
-        // Switches in their default state are hidden until the row is hovered.
-        let faint = match ui.rect_contains_pointer(row) || self.active {
-            true => tokens.faint_text,
-            false => Color32::TRANSPARENT,
-        };
-        let mut switch = |icon, verb: &str, colour, tooltip: String, edit| {
-            let label = format!("{verb} {}", self.name);
-            let button = IconButton::new(icon, &label)
-                .colour(colour)
-                .tooltip(tooltip);
-            if button.show(ui).clicked() {
-                told(editor.change(edit));
-            }
-        };
-        let (icon, colour) = match self.locked {
-            true => (Icon::Lock, tokens.text),
-            false => (Icon::LockOpen, faint),
-        };
-        let (curve, locked, visible) = (self.id, !self.locked, !self.visible);
-        let tooltip = "Protect the shape from edits".to_owned();
-        switch(
-            icon,
-            "Lock",
-            colour,
-            tooltip,
-            Edit::SetLocked { curve, locked },
-        );
-        let (icon, colour) = match self.visible {
-            true => (Icon::Eye, faint),
-            false => (Icon::EyeOff, tokens.text),
-        };
-        let tooltip = format!("Show or hide the {}", self.noun());
-        switch(
-            icon,
-            "Show",
-            colour,
-            tooltip,
-            Edit::SetVisible { curve, visible },
-        );
-    }
 }

@@ -7,7 +7,7 @@ use eframe::egui::{
 use lucide_icons::Icon;
 
 use super::curvature_rows::curvature_rows;
-use super::curve_list::Item;
+use super::curve_item::Item;
 use super::distance_panel::distance_ui;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
@@ -17,7 +17,7 @@ use super::reference_panel;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
-use crate::document::{Curve, CurveId, Edit, Reference};
+use crate::document::{Curve, CurveId, Edit, Group, Reference};
 use crate::editor::{Command, CurvatureDisplay, CurveReport, Editor, told};
 use crate::geometry::MAX_DEGREE;
 use crate::geometry::expressions::LengthUnit;
@@ -26,9 +26,46 @@ use crate::operations::{Value, reinterpret_degree};
 /// The inspector's own state.
 #[derive(Default)]
 pub struct Inspector {
-    /// The name that is being typed, for the curve that it belongs to.
-    name: Option<(CurveId, String)>,
+    /// The text that is being typed, for the curve that it belongs to and the field.
+    typed: Option<(CurveId, Text, String)>,
     formulas: FormulaFields,
+}
+
+/// A field of text.
+#[derive(Clone, Copy, PartialEq)]
+enum Text {
+    Name,
+    Group,
+}
+
+impl Text {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Name => "Name",
+            Self::Group => "Group",
+        }
+    }
+
+    /// What a tooltip says beside the text itself.
+    fn help(self) -> &'static str {
+        match self {
+            Self::Name => "",
+            Self::Group => "Path, such as Deck/Port; empty for none",
+        }
+    }
+
+    /// The edit that a typed text asks for; `None` if it changes nothing.
+    fn edit(self, item: &Item, text: String) -> Option<Edit> {
+        let curve = item.id;
+        match self {
+            Self::Name if text.trim() == item.name => None,
+            Self::Name => Some(Edit::Rename { curve, name: text }),
+            Self::Group => {
+                let group = Group::from(text.as_str());
+                (group != item.group).then_some(Edit::SetGroup { curve, group })
+            }
+        }
+    }
 }
 
 impl Inspector {
@@ -43,7 +80,15 @@ impl Inspector {
         let (curve, reference) = (document.curve(id).cloned(), document.reference(id).cloned());
         // Each curve has fields of its own, so that no text goes to another curve.
         ui.push_id(id, |ui| {
-            widgets::form_row(ui, "Name", |ui| self.name_ui(ui, editor, id, &item.name));
+            for (text, shown) in [
+                (Text::Name, item.name.clone()),
+                (Text::Group, item.group.to_string()),
+            ] {
+                let label = text.label();
+                widgets::form_row(ui, label, |ui| {
+                    self.text_ui(ui, editor, &item, (text, &shown));
+                });
+            }
             widgets::form_row(ui, "Colour", |ui| colour_ui(ui, editor, &item));
             if let Some(curve) = &curve {
                 ui.add_enabled_ui(curve.check_editable().is_ok(), |ui| {
@@ -92,10 +137,18 @@ impl Inspector {
         });
     }
 
-    fn name_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, name: &str) {
-        let typed = self.name.take().filter(|(owner, _)| *owner == id);
-        let mut text = typed.map_or_else(|| name.to_owned(), |(_, text)| text);
-        let field_id = ui.make_persistent_id("name");
+    /// Show a field of text with the text that the item has.
+    fn text_ui(
+        &mut self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        item: &Item,
+        (of, shown): (Text, &str),
+    ) {
+        self.typed.take_if(|(owner, ..)| *owner != item.id);
+        let typed = self.typed.take_if(|(_, field, _)| *field == of);
+        let mut text = typed.map_or_else(|| shown.to_owned(), |(_, _, text)| text);
+        let field_id = ui.make_persistent_id(of.label());
         let is_typed = ui.memory(|memory| memory.has_focus(field_id));
         let room = ui.available_width() - 2.0 * STEP;
         let mut is_cut = false;
@@ -112,19 +165,20 @@ impl Inspector {
         if !is_typed {
             field = field.layouter(&mut cut_short);
         }
-        let mut response = ui.add(field).accessible_name("Name");
-        if is_cut {
-            response = response.on_hover_text(name);
+        let mut response = ui.add(field).accessible_name(of.label());
+        for tip in [is_cut.then_some(shown), Some(of.help())] {
+            let tip = tip.filter(|tip| !tip.is_empty());
+            response = tip.map_or(response.clone(), |tip| response.on_hover_text(tip));
         }
         keyboard::claim(ui.ctx(), response.id, Typing::Text, response.rect);
         if response.lost_focus() {
             let called_off = ui.input(|input| input.key_pressed(Key::Escape));
-            if !called_off && text.trim() != name {
-                let (curve, name) = (id, text);
-                told(editor.change(Edit::Rename { curve, name }));
+            let edit = of.edit(item, text).filter(|_| !called_off);
+            if let Some(edit) = edit {
+                told(editor.change(edit));
             }
         } else if response.has_focus() {
-            self.name = Some((id, text));
+            self.typed = Some((item.id, of, text));
         }
     }
 }

@@ -1,0 +1,183 @@
+//! A row of the list of curves: a curve or a reference.
+
+use eframe::egui::{Color32, CursorIcon, Rect, Response, Role, Ui, Vec2, WidgetInfo, vec2};
+use lucide_icons::Icon;
+
+use super::theme::{STEP, Tokens};
+use super::widgets::{self, IconButton};
+use crate::document::{Colour, CurveId, Edit, Group};
+use crate::editor::{Editor, told};
+
+/// What a curve and a reference have in common.
+pub struct Item {
+    /// Its identity.
+    pub id: CurveId,
+    is_reference: bool,
+    /// Its name.
+    pub name: String,
+    /// Its group.
+    pub group: Group,
+    /// Its own colour; `None` takes the theme's.
+    pub colour: Option<Colour>,
+    /// Whether it is drawn.
+    pub visible: bool,
+    /// Whether its shape is protected from edits.
+    pub locked: bool,
+    /// Its place among the curves, or among the references.
+    pub place: usize,
+    /// Whether it is the active one.
+    pub active: bool,
+}
+
+impl Item {
+    /// List all curves, then all references.
+    pub fn all(editor: &Editor) -> Vec<Self> {
+        let (document, active) = (editor.document(), editor.active());
+        let curves = document.curves().enumerate();
+        let curves = curves.map(|(place, (id, curve))| Self {
+            id,
+            is_reference: false,
+            name: curve.name.clone(),
+            group: curve.group.clone(),
+            colour: curve.colour,
+            visible: curve.visible,
+            locked: curve.locked,
+            place,
+            active: active == Some(id),
+        });
+        let references = document.references().enumerate();
+        let references = references.map(|(place, (id, reference))| Self {
+            id,
+            is_reference: true,
+            name: reference.name.clone(),
+            group: reference.group.clone(),
+            colour: reference.colour,
+            visible: reference.visible,
+            locked: reference.locked,
+            place,
+            active: active == Some(id),
+        });
+        curves.chain(references).collect()
+    }
+
+    /// The active curve or reference.
+    pub fn active(editor: &Editor) -> Option<Self> {
+        Self::all(editor).into_iter().find(|item| item.active)
+    }
+
+    /// The colour that it is shown in.
+    pub fn shown_colour(&self, tokens: &Tokens) -> Color32 {
+        tokens.of_item(Some(self.id), self.colour, self.is_reference)
+    }
+
+    /// What screen readers and tooltips call it.
+    fn noun(&self) -> &'static str {
+        match self.is_reference {
+            true => "reference",
+            false => "curve",
+        }
+    }
+
+    /// Whether another item is of its kind and in its group: only these trade places.
+    pub fn is_beside(&self, other: &Self) -> bool {
+        self.is_reference == other.is_reference && self.group == other.group
+    }
+
+    /// Paint its swatch, and name its row for screen readers.
+    pub fn paint(&self, ui: &Ui, rect: Rect, response: &Response) {
+        let colour = self.shown_colour(Tokens::of(ui));
+        let centre = rect.left_center() + vec2(4.0 * STEP, 0.0);
+        let swatch = Rect::from_center_size(centre, Vec2::splat(3.0 * STEP));
+        match self.is_reference {
+            true => widgets::icon(ui, swatch, Icon::SplinePointer, colour),
+            false => widgets::swatch(ui, swatch, colour),
+        }
+        let label = format!("{} {}", self.noun(), self.name);
+        response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, self.active, &label));
+    }
+
+    /// Show the name; a tooltip shows all of one that does not fit.
+    pub fn name_ui(&self, ui: &Ui, rect: Rect, response: Response) {
+        let tokens = Tokens::of(ui);
+        let colour = match (self.active, self.visible) {
+            (true, _) => tokens.strong_text,
+            (false, true) => tokens.text,
+            (false, false) => tokens.faint_text,
+        };
+        if widgets::label_in(ui, rect, &self.name, colour) {
+            response.on_hover_text(&self.name);
+        }
+    }
+
+    /// A row can be dragged to another place; in the rows of another group it moves to that group.
+    pub fn reorder(&self, ui: &Ui, editor: &mut Editor, rect: Rect, response: &Response) {
+        if response.drag_started() {
+            response.dnd_set_drag_payload(self.id);
+        }
+        if response.dragged() {
+            ui.set_cursor_icon(CursorIcon::Grabbing);
+        }
+        let hovering = response.dnd_hover_payload::<CurveId>();
+        if hovering.is_some_and(|dragged| *dragged != self.id) {
+            widgets::outline(ui, rect, 1.5, Tokens::of(ui).accent);
+        }
+        let dropped = response.dnd_release_payload::<CurveId>();
+        if let Some(dropped) = dropped.filter(|dropped| **dropped != self.id) {
+            self.take_place(editor, *dropped);
+        }
+    }
+
+    /// Put another item in its place, and in its group.
+    fn take_place(&self, editor: &mut Editor, dropped: CurveId) {
+        let (group, place) = (self.group.clone(), self.place);
+        let is_same = editor.document().group(dropped) == Some(&group);
+        let curve = dropped;
+        let moved = (!is_same).then_some(Edit::SetGroup { curve, group });
+        let edits = moved.into_iter().chain([Edit::Reorder { curve, place }]);
+        told(editor.apply("Reorder curves", edits.collect()));
+    }
+
+    /// Show its lock and its eye at the right of its row.
+    pub fn switches_ui(&self, ui: &mut Ui, editor: &mut Editor, row: Rect) {
+        let tokens = Tokens::of(ui);
+        // Switches in their default state are hidden until the row is hovered.
+        let faint = match ui.rect_contains_pointer(row) || self.active {
+            true => tokens.faint_text,
+            false => Color32::TRANSPARENT,
+        };
+        let mut switch = |icon, verb: &str, colour, tooltip: String, edit| {
+            let label = format!("{verb} {}", self.name);
+            let button = IconButton::new(icon, &label)
+                .colour(colour)
+                .tooltip(tooltip);
+            if button.show(ui).clicked() {
+                told(editor.change(edit));
+            }
+        };
+        let (icon, colour) = match self.locked {
+            true => (Icon::Lock, tokens.text),
+            false => (Icon::LockOpen, faint),
+        };
+        let (curve, locked, visible) = (self.id, !self.locked, !self.visible);
+        let tooltip = "Protect the shape from edits".to_owned();
+        switch(
+            icon,
+            "Lock",
+            colour,
+            tooltip,
+            Edit::SetLocked { curve, locked },
+        );
+        let (icon, colour) = match self.visible {
+            true => (Icon::Eye, faint),
+            false => (Icon::EyeOff, tokens.text),
+        };
+        let tooltip = format!("Show or hide the {}", self.noun());
+        switch(
+            icon,
+            "Show",
+            colour,
+            tooltip,
+            Edit::SetVisible { curve, visible },
+        );
+    }
+}
