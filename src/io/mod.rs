@@ -61,4 +61,6 @@ pub use table_column::TableColumn;
 pub use table_columns::ColumnChoice;
 
 #[cfg(test)]
+mod groups;
+#[cfg(test)]
 mod units;

@@ -789,7 +789,7 @@ fn references_of_a_project_are_approximated_and_inspected() {
         "in.batten: points have no derivatives, so they cannot be approximated: fit a curve to them",
     );
     let inspected = folder.inspect(&["in.batten"])["references"].clone();
-    let round = json!({"name": "round", "kind": "circle", "text": "circle:radius=2,from=0,to=3",
+    let round = json!({"name": "round", "group": "", "kind": "circle", "text": "circle:radius=2,from=0,to=3",
         "parameters": {"radius": 2.0}, "interval": [0.0, 3.0],
         "placement": {"rotation": [0.0, 0.0, 0.0, 1.0], "scale": 2.0, "translation": [1.0, 0.0, 0.0]},
         "features": {"sampled": true, "inflections": [], "curvature_extrema": [], "cusps": []}});

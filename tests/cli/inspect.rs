@@ -67,7 +67,7 @@ fn inspect_prints_the_described_shape() {
     let folder = Folder::new().with("two.batten", project(curves));
     let found = folder.inspect(&["two.batten", "--at", "0.5"]);
     let line = json!({
-        "name": "line", "degree": 1, "dimension": 2, "periodic": false,
+        "name": "line", "group": "", "degree": 1, "dimension": 2, "periodic": false,
         "float": [[0.0, 0.0], [0.0, 4.0]], "weights": null,
         "clamped": [[0.0, 0.0], [0.0, 4.0]], "clamped_weights": null,
         "domain": [0.0, 1.0], "length": null,
@@ -103,6 +103,31 @@ fn inspect_prints_the_described_shape() {
         folder.inspect(&["two.batten"])["curves"][0]["at"],
         json!([])
     );
+}
+
+#[test]
+fn inspect_and_list_tell_groups() {
+    let project = json!({"format": "batten", "version": 2,
+        "curves": [
+            {"name": "keel", "group": "Hull/Keel", "degree": 1, "vertices": [[0, 0], [0, 4]]},
+            {"name": "plank", "degree": 1, "vertices": [[0, 0], [0, 4]]}],
+        "references": [{"name": "round", "group": "Deck/1\\/2", "kind": "circle"}]});
+    let folder = Folder::new().with("a.batten", project.to_string());
+    let found = folder.inspect(&["a.batten"]);
+    assert_eq!(found["curves"][0]["group"], "Hull/Keel");
+    assert_eq!(found["curves"][1]["group"], "");
+    assert_eq!(found["references"][0]["group"], "Deck/1\\/2");
+
+    folder.done(&["convert", "a.batten", "a.3dm"]);
+    let found = folder.inspect(&["a.3dm"]);
+    assert_eq!(found["curves"][0]["group"], "Hull/Keel");
+    assert_eq!(found["references"][0]["group"], "Deck/1\\/2");
+    let (listed, _) = folder.done(&["list", "a.3dm"]);
+    let listed: Value = serde_json::from_str(&listed).unwrap();
+    assert_eq!(listed["items"][0]["group"], "Hull/Keel");
+    let (_, told) = folder.done(&["convert", "a.batten", "a.csv"]);
+    let loss = "“keel”: the group isn't stored in the CSV table";
+    assert!(told.contains(loss), "{told}");
 }
 
 #[test]

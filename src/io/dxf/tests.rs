@@ -11,7 +11,7 @@ use crate::geometry::FloatPolygon;
 use crate::geometry::end_correction::EndTarget;
 use crate::io::loss::Export;
 
-type Group = (i32, String);
+type Pair = (i32, String);
 
 fn curve(name: &str, degree: usize, vertices: &[[f64; 3]], weights: Option<Vec<f64>>) -> Curve {
     let vertices = vertices.iter().map(|vertex| DVec3::from_array(*vertex));
@@ -57,7 +57,7 @@ fn written(curves: &[&Curve], polygon: Option<PolygonKind>) -> Result<Export, Wr
 }
 
 /// Write a drawing and split it into its groups.
-fn groups(curves: &[&Curve], polygon: Option<PolygonKind>) -> Vec<Group> {
+fn groups(curves: &[&Curve], polygon: Option<PolygonKind>) -> Vec<Pair> {
     let text = String::from_utf8(written(curves, polygon).unwrap().bytes).unwrap();
     assert!(text.is_ascii());
     let lines: Vec<&str> = text.lines().collect();
@@ -68,18 +68,18 @@ fn groups(curves: &[&Curve], polygon: Option<PolygonKind>) -> Vec<Group> {
 }
 
 /// Take the groups of each entity of a kind: everything up to the next one.
-fn entities<'a>(groups: &'a [Group], kind: &str) -> Vec<&'a [Group]> {
+fn entities<'a>(groups: &'a [Pair], kind: &str) -> Vec<&'a [Pair]> {
     let starts: Vec<usize> = (0..groups.len()).filter(|i| groups[*i].0 == 0).collect();
     let spans = starts.windows(2).map(|span| &groups[span[0]..span[1]]);
     spans.filter(|span| span[0].1 == kind).collect()
 }
 
-fn values(entity: &[Group], code: i32) -> Vec<&str> {
+fn values(entity: &[Pair], code: i32) -> Vec<&str> {
     let found = entity.iter().filter(|group| group.0 == code);
     found.map(|group| group.1.as_str()).collect()
 }
 
-fn numbers(entity: &[Group], code: i32) -> Vec<f64> {
+fn numbers(entity: &[Pair], code: i32) -> Vec<f64> {
     let texts = values(entity, code).into_iter();
     texts.map(|text| text.parse().unwrap()).collect()
 }
@@ -148,7 +148,10 @@ fn one_polygon_can_be_chosen() {
         assert_eq!(entities(&groups, "SPLINE").len(), 1);
         let polylines = entities(&groups, "LWPOLYLINE");
         assert_eq!(polylines.len(), 1);
-        assert_eq!(values(polylines[0], 8), [format!("a{}", layers::suffix(kind))]);
+        assert_eq!(
+            values(polylines[0], 8),
+            [format!("a{}", layers::suffix(kind))]
+        );
     }
 }
 
@@ -238,6 +241,67 @@ fn losses_are_reported() {
         &curve,
         &[Loss::Name { written }, Loss::Colour, Loss::Targets],
     );
+}
+
+/// The layers of a drawing with their colours and whether they are locked, and those of its splines.
+fn layers_of(curves: &[&Curve]) -> (Vec<String>, Vec<String>) {
+    let groups = groups(curves, Some(PolygonKind::Float));
+    let layers = entities(&groups, "LAYER").into_iter();
+    let layers = layers.map(|layer| {
+        let [name, colour, flags] = [2, 62, 70].map(|code| values(layer, code)[0]);
+        format!("{name}: {colour} {flags}")
+    });
+    let splines = entities(&groups, "SPLINE").into_iter();
+    let splines = splines.map(|spline| values(spline, 8)[0].to_owned());
+    (layers.skip(1).collect(), splines.collect())
+}
+
+#[test]
+fn curves_of_a_group_share_its_layers() {
+    let of = |name: &str, group: &str| planar(name).in_group(group.into());
+    let mut hidden = of("c", "Deck");
+    (hidden.visible, hidden.locked) = (false, true);
+    let curves = [
+        of("a", "Deck"),
+        of("b", "Deck"),
+        hidden,
+        of("d", "Hull/Keel"),
+    ];
+    let (layers, splines) = layers_of(&[
+        &curves[0],
+        &curves[1],
+        &curves[2],
+        &curves[3],
+        &planar("Deck"),
+    ]);
+    let expected = ["Deck", "Deck", "Deck hidden locked", "Hull$Keel", "Deck 2"];
+    assert_eq!(splines, expected);
+    let expected = [
+        "Deck: 7 0",
+        "Deck float polygon: 5 0",
+        "Deck hidden locked: -7 4",
+        "Deck hidden locked float polygon: -5 4",
+        "Hull$Keel: 7 0",
+        "Hull$Keel float polygon: 5 0",
+        "Deck 2: 7 0",
+        "Deck 2 float polygon: 5 0",
+    ];
+    assert_eq!(layers, expected);
+    let bytes = written(&[&curves[0]], None).unwrap().bytes;
+    let read = DXF.read(&bytes).unwrap();
+    assert_eq!(read.curves[0].group, Group::from("Deck"));
+}
+
+#[test]
+fn names_and_paths_that_layers_cannot_hold_are_reported() {
+    let losses = |group: &str| {
+        let curve = planar("a").in_group(group.into());
+        written(&[&curve], None).unwrap().losses.to_string()
+    };
+    let name = "“a”: the name of a curve in a group isn't stored in the DXF";
+    assert_eq!(losses("Deck"), name);
+    let path = "“a”: the group is written as “Deck$Port”, which DXF allows";
+    assert_eq!(losses("Deck/Port"), format!("{name}\n{path}"));
 }
 
 #[test]

@@ -4,8 +4,9 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::document::{Colour, Curve, EndTargets, Extras, MatchPlace};
+use crate::document::{Colour, Curve, EndTargets, Extras, MatchPlace, Reference};
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{Continuity, End, FloatPolygon, MAX_MAGNITUDE};
 use crate::io::{FileMatch, MatchSource, TABLE};
 
@@ -479,6 +480,53 @@ fn keys_of_version_2_mean_nothing_in_version_1() {
     curve.extras = Extras::default();
     curve.extras.push("more", "1e999");
     assert_eq!(curves_of(&text_of(&[&curve])), [curve]);
+}
+
+#[test]
+fn groups_are_kept_and_make_a_file_one_of_version_2() {
+    let curve = line("keel").in_group("Hull/1\\/2".into());
+    let text = text_of(&[&line("plain"), &curve]);
+    assert!(text.contains("\"version\": 2"), "{text}");
+    assert!(text.contains(r#""group": "Hull/1\\/2""#), "{text}");
+    assert_eq!(text.matches("group").count(), 1, "{text}");
+    assert_eq!(curves_of(&text), [line("plain"), curve]);
+
+    let circle = ReferenceCurve::from_text("circle").unwrap();
+    let circle = Reference::new("circle", circle).in_group("Hull".into());
+    let document = Document::default().with_references([circle.clone()]);
+    let written = PROJECT.write(&document, None).unwrap();
+    assert_eq!(read(&written.bytes).unwrap().references, [circle]);
+}
+
+#[test]
+fn a_group_in_a_file_of_version_1_is_an_unknown_key() {
+    let text = r#"{"format":"batten","version":1,"curves":[{"name":"a","group":5,"degree":1,
+        "vertices":[[0,0],[1,2]]}]}"#;
+    let [curve] = &curves_of(text)[..] else {
+        panic!("one curve");
+    };
+    assert!(curve.group.is_none());
+    assert_eq!(curve.extras.iter().collect::<Vec<_>>(), [("group", "5")]);
+    let written = text_of(&[curve]);
+    assert!(written.contains("\"version\": 1"), "{written}");
+    assert_eq!(curves_of(&written), std::slice::from_ref(curve));
+
+    // In version 2 it would have another meaning: it goes.
+    for group in ["", "Deck"] {
+        let mut locked = curve.clone().in_group(group.into());
+        locked.locked_vertices.set(0, true);
+        let read = curves_of(&text_of(&[&locked]));
+        locked.extras = Extras::default();
+        assert_eq!(read, [locked]);
+    }
+}
+
+#[test]
+fn a_group_that_is_no_text_is_refused_with_its_place() {
+    let text = r#"{"format":"batten","version":2,"curves":[{"group":["a"],"degree":1,
+        "vertices":[[0,0],[1,2]]}]}"#;
+    let error = read(text.as_bytes()).unwrap_err().to_string();
+    assert!(error.starts_with("line 1, column 50, curve 1: "), "{error}");
 }
 
 #[test]

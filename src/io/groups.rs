@@ -1,0 +1,193 @@
+//! What files of each format keep of groups.
+
+use glam::DVec3;
+
+use super::exchange::drawing::{Drawing, Item, Kind, Shape, Space};
+use super::formats;
+use super::{Loss, Reading};
+use crate::document::{Curve, Document, Group, Reference};
+use crate::geometry::FloatPolygon;
+use crate::geometry::references::ReferenceCurve;
+
+fn curve(name: &str, group: Group) -> Curve {
+    let polygon = FloatPolygon::planar(2, &[(0.0, 0.0), (1.0, 0.0), (2.0, 1.0)]);
+    Curve::new(name, polygon.expect("a polygon")).in_group(group)
+}
+
+fn document(groups: &[(&str, &[&str])]) -> Document {
+    let curves = groups.iter();
+    let curves = curves.map(|(name, path)| curve(name, Group::new(*path)));
+    Document::from_curves(curves)
+}
+
+/// The groups of a file's curves, then of its references, with their names.
+fn groups(reading: &Reading) -> Vec<(&str, Vec<&str>)> {
+    let curves = reading.curves.iter().map(|it| (&it.name, &it.group));
+    let references = reading.references.iter().map(|it| (&it.name, &it.group));
+    let named = curves.chain(references).map(|(name, group)| {
+        let path = group.names().iter().map(String::as_str);
+        (name.as_str(), path.collect())
+    });
+    named.collect()
+}
+
+/// What a format reports of lost groups.
+fn losses(extension: &str, document: &Document) -> Vec<Option<String>> {
+    let format = formats::find(extension).expect("a format");
+    let export = format.write(document, None).expect("a file");
+    let losses = export.losses.losses.into_iter();
+    let of_groups = losses.filter_map(|(_, loss)| match loss {
+        Loss::Group { written } => Some(written.map(|group| group.to_string())),
+        _ => None,
+    });
+    of_groups.collect()
+}
+
+fn read_back(extension: &str, document: &Document) -> Reading {
+    let format = formats::find(extension).expect("a format");
+    let export = format.write(document, None).expect("a file");
+    format.read(&export.bytes).expect("what was written")
+}
+
+#[test]
+fn formats_with_layers_give_groups_back() {
+    let circle = ReferenceCurve::from_text("circle").expect("a circle");
+    let circle = Reference::new("circle", circle).in_group("Deck".into());
+    let all: [(&str, &[&str]); 3] = [("a", &["Deck", "Port"]), ("b", &["Hüll"]), ("c", &[])];
+    let document = document(&all).with_references([circle]);
+    for extension in [
+        "batten", "step", "ap242", "igs", "3dm", "svg", "obj", "json",
+    ] {
+        assert_eq!(losses(extension, &document), [], "{extension}");
+        let reading = read_back(extension, &document);
+        let found = groups(&reading);
+        for (name, path) in all.into_iter().chain([("circle", &["Deck"][..])]) {
+            let own = found.iter().find(|own| own.0 == name);
+            // A curve of a 3DM file has a layer.
+            let path = match (path, extension) {
+                ([], "3dm") => &["a"],
+                _ => path,
+            };
+            assert_eq!(own.expect(name).1, path, "{extension}: {name}");
+        }
+    }
+}
+
+#[test]
+fn a_slash_in_a_name_is_kept_or_its_loss_reported() {
+    let document = document(&[("a", &["Deck", "1/2"])]);
+    for extension in ["batten", "3dm", "svg", "json"] {
+        assert_eq!(losses(extension, &document), [], "{extension}");
+        let reading = read_back(extension, &document);
+        assert_eq!(
+            groups(&reading),
+            [("a", vec!["Deck", "1/2"])],
+            "{extension}"
+        );
+    }
+    for extension in ["step", "ap242", "igs", "obj"] {
+        let written = Some("Deck/1/2".to_owned());
+        assert_eq!(losses(extension, &document), [written], "{extension}");
+        let reading = read_back(extension, &document);
+        assert_eq!(
+            groups(&reading),
+            [("a", vec!["Deck", "1", "2"])],
+            "{extension}"
+        );
+    }
+}
+
+#[test]
+fn formats_without_layers_report_the_loss() {
+    let document = document(&[("a", &["Deck"]), ("b", &[])]);
+    for extension in ["brep", "glif", "csv", "tsv"] {
+        assert_eq!(losses(extension, &document), [None], "{extension}");
+    }
+    let format = formats::find("brep").expect("a format");
+    let export = format.write(&document, None).expect("a file");
+    let told = export.losses.to_string();
+    assert_eq!(told, "“a”: the group isn't stored in the BREP");
+}
+
+#[test]
+fn names_that_a_format_changes_are_reported() {
+    for (extension, path, written) in [
+        ("3dm", &["(a)"][..], Some("_(a)")),
+        ("obj", &["default"], None),
+        ("obj", &["n#1"], Some("n_1")),
+        ("svg", &["a"; 61], Some("a/")),
+    ] {
+        let reported = losses(extension, &document(&[("a", path)]));
+        let [reported] = &reported[..] else {
+            panic!("{extension}: {reported:?}");
+        };
+        let begins = match (reported, written) {
+            (Some(reported), Some(written)) => reported.starts_with(written),
+            (reported, written) => reported.is_none() && written.is_none(),
+        };
+        assert!(begins, "{extension}: {reported:?}");
+    }
+}
+
+fn item(kind: Kind, path: &[&str], name: Option<&str>, shapes: usize) -> Item {
+    let line = |place: usize| Shape::Polyline {
+        points: vec![DVec3::ZERO, DVec3::new(1.0, place as f64, 0.0)],
+        closed: false,
+    };
+    Item {
+        kind,
+        shapes: (0..shapes).map(line).collect(),
+        group: path.iter().map(|name| (*name).to_owned()).collect(),
+        name: name.map(str::to_owned),
+        block: None,
+        colour: None,
+        space: Space::Model,
+        at: 1,
+    }
+}
+
+fn reading(items: Vec<Item>) -> Reading {
+    let drawing = Drawing {
+        items,
+        ..Drawing::default()
+    };
+    drawing.reading()
+}
+
+#[test]
+fn the_pieces_of_an_item_are_a_group_and_so_is_a_block() {
+    let mut block = item(Kind::Line, &["Layer"], Some("bolt"), 1);
+    block.block = Some("Rivet".to_owned());
+    let reading = reading(vec![
+        item(Kind::Polycurve, &["Layer"], Some("rail"), 2),
+        item(Kind::Polycurve, &[], Some("rail"), 2),
+        item(Kind::Path, &[], None, 2),
+        item(Kind::Line, &[], Some("alone"), 1),
+        block,
+    ]);
+    assert_eq!(
+        groups(&reading),
+        [
+            ("rail 1", vec!["Layer", "rail"]),
+            ("rail 2", vec!["Layer", "rail"]),
+            ("rail 1 2", vec!["rail 2"]),
+            ("rail 2 2", vec!["rail 2"]),
+            ("path 1", vec!["path 1"]),
+            ("path 2", vec!["path 1"]),
+            ("alone", vec![]),
+            ("bolt", vec!["Layer", "Rivet"]),
+        ]
+    );
+}
+
+#[test]
+fn points_keep_a_group_that_they_share() {
+    let point = |group: &str| Item {
+        shapes: vec![Shape::Point(DVec3::new(group.len() as f64, 0.0, 0.0))],
+        ..item(Kind::Point, &[group], None, 0)
+    };
+    let shared = reading(vec![point("Scan"), point("Scan")]);
+    assert_eq!(groups(&shared), [("points", vec!["Scan"])]);
+    let apart = reading(vec![point("Scan"), point("Survey")]);
+    assert_eq!(groups(&apart), [("points", vec![])]);
+}
