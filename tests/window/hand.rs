@@ -5,7 +5,7 @@ use std::path::Path;
 use batten::document::Curve;
 use batten::editor::Editor;
 use batten::ui::App;
-use eframe::egui::{Event, Key, Modifiers, Pos2, vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use glam::DVec2;
@@ -107,4 +107,27 @@ pub fn answer(window: &mut Window, path: &Path) {
     click(window, "Path");
     type_over(window, &path.to_string_lossy());
     press(window, Modifiers::NONE, Key::Enter);
+}
+
+pub fn double_click(window: &mut Window, at: Pos2) {
+    // A step of the test takes longer than a hand does.
+    window
+        .ctx
+        .options_mut(|options| options.input_options.max_double_click_delay = 2.0);
+    window.hover_at(at);
+    // What was clicked before is long ago.
+    for _ in 0..12 {
+        window.step();
+    }
+    for pressed in [true, false, true, false] {
+        window.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+    window.run();
+    window.run();
 }

@@ -10,6 +10,7 @@ mod fields;
 mod files;
 mod fitting;
 mod generating;
+mod grouping;
 mod hand;
 mod harmony;
 mod help;

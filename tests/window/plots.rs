@@ -1,6 +1,6 @@
 //! The plots under the canvas: zoomed by the wheel, moved by a drag, fitted again.
 
-use eframe::egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, vec2};
+use eframe::egui::{Event, Key, Modifiers, MouseWheelUnit, Pos2, TouchPhase, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
 use crate::hand::*;
@@ -30,29 +30,6 @@ fn turn(window: &mut Window, modifiers: Modifiers, lines: f32) {
         modifiers,
         source: eframe::egui::MouseWheelSource::Wheel,
     });
-    window.run();
-    window.run();
-}
-
-fn double_click(window: &mut Window, at: Pos2) {
-    // A step of the test takes longer than a hand does.
-    window
-        .ctx
-        .options_mut(|options| options.input_options.max_double_click_delay = 2.0);
-    window.hover_at(at);
-    // What was clicked before is long ago.
-    for _ in 0..12 {
-        window.step();
-    }
-    for pressed in [true, false, true, false] {
-        window.event(Event::PointerButton {
-            pos: at,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
-        window.step();
-    }
     window.run();
     window.run();
 }
