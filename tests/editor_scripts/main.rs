@@ -23,6 +23,7 @@ mod files;
 mod fitting;
 mod following;
 mod generating;
+mod grouping;
 mod guides;
 mod harmony;
 mod joining;
