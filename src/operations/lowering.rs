@@ -62,6 +62,7 @@ pub fn lowered(
                 keeps_features: keeps_features(polygon, &found.polygon, progress)?,
             });
             copy = Curve {
+                group: copy.group,
                 colour: copy.colour,
                 visible: copy.visible,
                 locked: copy.locked,
