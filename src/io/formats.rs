@@ -54,6 +54,26 @@ pub fn exporters() -> Vec<Exporter> {
     exporters
 }
 
+/// Tell the format of another program's text by its beginning, if that says it: that of the clipboard has no extension.
+pub fn of_text(text: &str) -> Option<&'static Format> {
+    let text = text.trim_start();
+    let mut lines = text.lines().map(str::trim);
+    let extension = match [lines.next()?, lines.next().unwrap_or_default()] {
+        ["0", "SECTION"] => "dxf",
+        [first, _] if first.starts_with("ISO-10303-21") => "step",
+        [first, _] if first.starts_with('<') => {
+            let root = ["svg", "glyph", "gpx"].into_iter().filter_map(|root| {
+                let at = text.find(&format!("<{root}"))?;
+                Some((at, root))
+            });
+            let (_, root) = root.min()?;
+            if root == "glyph" { "glif" } else { root }
+        }
+        _ => return None,
+    };
+    find(extension)
+}
+
 /// Find a format by an extension in upper or lower case.
 pub fn find(extension: &str) -> Option<&'static Format> {
     FORMATS.into_iter().find(|format| {

@@ -171,7 +171,7 @@ impl Action {
             Self::Quit => "Quit Batten",
             Self::Cut => "Copy the selected vertices and delete them",
             Self::Copy => "Copy the active curve, or only its selected vertices",
-            Self::Paste => "Add the copied curve or vertices as a new curve",
+            Self::Paste => "Add copied curves, vertices, SVG paths or DXF text as new curves",
             Self::Rename => "Rename in the list of curves; a double-click on a row does the same",
             Self::ToggleTheme => "Switch between the dark and the light theme",
             Self::ToggleToolNames => "Show the names of the tools beside their icons",

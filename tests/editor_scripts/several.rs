@@ -3,7 +3,7 @@
 use batten::document::{Curve, CurveId, Edit};
 use batten::editor::{Command, HoverScene, Key, Modifiers, ToolKind};
 use batten::geometry::end_correction::EndTarget;
-use batten::geometry::{End, FloatPolygon, PolygonKind};
+use batten::geometry::{ClampedPolygon, End, FloatPolygon, PolygonKind};
 use batten::io::disk;
 use batten::operations::{self, Inputs, Value};
 use glam::{DVec2, DVec3};
@@ -219,6 +219,65 @@ fn a_single_vertex_is_copied_as_its_coordinates() {
     let text = copied(&mut script);
     script.editor.paste_text(&text).expect("a curve");
     assert_eq!(script.polygon().vertices().len(), 5);
+}
+
+#[test]
+fn drawings_of_other_programs_are_pasted() {
+    let (mut script, _) = two();
+    let cubic = [[10.0, -20.0], [30.0, -40.0], [50.0, -60.0], [70.0, -20.0]];
+    let check = |script: &mut Script, text: &str| {
+        let before = script.editor.document().curves().len();
+        script.editor.paste_text(text).expect("a curve");
+        let curves = script.editor.document().curves();
+        assert_eq!(curves.len(), before + 1, "{text}");
+        let clamped = ClampedPolygon::from_float(&script.polygon());
+        for (vertex, expected) in clamped.vertices().iter().zip(cubic) {
+            let expected = DVec2::from_array(expected).extend(0.0);
+            assert!(vertex.distance(expected) < 1e-12, "{text}: {vertex}");
+        }
+        script.command(Command::Undo);
+        assert_eq!(script.editor.document().curves().len(), before);
+    };
+    let data = "M10,20 C 30 40 50 60 70 20";
+    check(&mut script, data);
+    let svg = format!("<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"{data}\"/></svg>");
+    check(&mut script, &format!("<?xml version=\"1.0\"?>\n{svg}"));
+    let text = |pairs: &[(&str, &str)]| {
+        let lines = pairs
+            .iter()
+            .map(|(code, value)| format!("  {code}\n{value}\n"));
+        lines.collect::<String>()
+    };
+    let knots = ["0", "0", "0", "0", "1", "1", "1", "1"].map(|knot| ("40", knot));
+    let vertices = ["10", "30", "50", "70"]
+        .into_iter()
+        .zip(["-20", "-40", "-60", "-20"]);
+    let vertices = vertices.flat_map(|(x, y)| [("10", x), ("20", y), ("30", "0")]);
+    let begin = [
+        ("0", "SECTION"),
+        ("2", "ENTITIES"),
+        ("0", "SPLINE"),
+        ("71", "3"),
+        ("72", "8"),
+        ("73", "4"),
+    ];
+    let spline = begin.into_iter().chain(knots).chain(vertices);
+    let dxf: Vec<_> = spline.chain([("0", "ENDSEC"), ("0", "EOF")]).collect();
+    check(&mut script, &text(&dxf));
+    // What begins like a drawing is read as one only, and a text is no path.
+    for text in [
+        "<svg><path d=",
+        "Move 3 curves",
+        "  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n",
+    ] {
+        let before = script.editor.document().clone();
+        let reply = script.editor.paste_text(text);
+        assert!(
+            reply.is_err() || reply.is_ok_and(|note| note.text.contains("no curves")),
+            "{text}"
+        );
+        assert_eq!(*script.editor.document(), before);
+    }
 }
 
 #[test]

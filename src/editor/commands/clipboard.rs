@@ -15,7 +15,7 @@ use crate::editor::selection::Selection;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
-use crate::io::{Export, PROJECT, Reading, TABLE, WriteError};
+use crate::io::{Export, PROJECT, ReadError, Reading, TABLE, WriteError, formats};
 
 /// The distance of copies from their originals, in screen points, right and down.
 const OFFSET: f64 = 24.0;
@@ -131,8 +131,21 @@ impl Editor {
     }
 }
 
-/// Read a text from the clipboard: a project or a table.
+/// Read a text from the clipboard: a project or a table, a drawing of another program, or the data of an SVG path.
 fn read(text: &str) -> Result<Reading, Refusal> {
+    let unreadable = |error: ReadError| {
+        Refusal(format!(
+            "The clipboard holds no curve that can be read: {error}"
+        ))
+    };
+    if let Some(format) = formats::of_text(text) {
+        return format.read(text.as_bytes()).map_err(unreadable);
+    }
+    if is_path(text) {
+        let path = format!("<svg xmlns=\"{SVG}\"><path d=\"{}\"/></svg>", text.trim());
+        let svg = formats::of_text(&path).ok_or("No format holds paths")?;
+        return svg.read(path.as_bytes()).map_err(unreadable);
+    }
     let project = PROJECT.read(text.as_bytes());
     let read = match &project {
         Ok(_) => project,
@@ -140,11 +153,22 @@ fn read(text: &str) -> Result<Reading, Refusal> {
         Err(_) if text.trim_start().starts_with('{') => project,
         Err(_) => TABLE.read(text.as_bytes()),
     };
-    read.map_err(|error| {
-        Refusal(format!(
-            "The clipboard holds no curve that can be read: {error}"
-        ))
-    })
+    read.map_err(unreadable)
+}
+
+/// The namespace of SVG.
+const SVG: &str = "http://www.w3.org/2000/svg";
+
+/// Whether a text is the data of an SVG path, which begins with a move, and has nothing else than commands and numbers.
+fn is_path(text: &str) -> bool {
+    let text = text.trim();
+    let begins = text.starts_with(['M', 'm']);
+    let is_data = |letter: char| {
+        letter.is_ascii_digit()
+            || letter.is_whitespace()
+            || "MmLlHhVvCcSsQqTtAaZz,.+-eE".contains(letter)
+    };
+    begins && text.contains(|letter: char| letter.is_ascii_digit()) && text.chars().all(is_data)
 }
 
 /// The text of the selection, or of the active curve or reference.
