@@ -203,11 +203,9 @@ fn degrees_are_lowered_within_a_tolerance_that_is_measured() {
             !err.contains("; inflections or extrema change"),
             "{err}"
         );
-        assert!(same || out == "fine.batten", "{err}");
         after["float"].as_array().expect("vertices").len()
     };
     let coarse = lower("b.batten", &["--tolerance", "1e-2"]);
-    // So many segments of degree 3 ripple.
     let fine = lower("fine.batten", &["--tolerance", "1e-6"]);
     assert!(coarse < fine, "{coarse} and {fine} vertices");
     lower("b.step", &[]);

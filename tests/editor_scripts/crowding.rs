@@ -154,8 +154,8 @@ fn where_nothing_of_the_polygon_is_seen_the_curve_is_hit() {
     };
     for (scale, expected) in [
         (20.0, (true, false)),
-        // No disc, but legs: hovering shows the vertex that a press would take.
-        (4.0, (true, false)),
+        // Legs, but no discs: what is not seen is not taken.
+        (4.0, (false, true)),
         (2.0, (false, true)),
         (0.1, (false, true)),
     ] {
