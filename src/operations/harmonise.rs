@@ -216,7 +216,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let turned = turned_over(&curve.polygon, &found.polygon);
     let flung = flung(&curve.polygon, &found.polygon).map(|(vertex, distance)| {
         let distance = significant(distance, 3);
-        format!("Vertex {vertex} moves by {distance}, farther than the curve is large: ask for more features")
+        format!("Vertex {vertex} moves by {distance}, farther than the polygon is large: ask for more features")
     });
     let is_wrong = turned.is_some() || flung.is_some();
     let failed = is_wrong.then_some(Requirement::Failed { left: None });

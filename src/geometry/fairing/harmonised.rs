@@ -4,7 +4,6 @@ use thiserror::Error;
 
 use super::counts::ShapeCounts;
 use super::requirement::Requirement;
-use crate::geometry::conversion::BezierPolygon;
 use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::Features;
@@ -150,14 +149,12 @@ impl Harmonised {
     }
 }
 
-/// How far a vertex moves, if that is farther than the curve is large: the polygon is no use then, however near the
-/// curve is.
+/// How far a vertex moves, if that is farther than the polygon is large: it is no use then, however near the curve is.
 pub fn flung(before: &FloatPolygon, after: &FloatPolygon) -> Option<(usize, f64)> {
     let pairs = before.vertices().iter().zip(after.vertices());
     let moves = pairs.map(|(before, after)| after.distance(*before));
     let farthest = moves.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    let size = BezierPolygon::from_float(before).size();
-    farthest.filter(|(_, distance)| *distance > size)
+    farthest.filter(|(_, distance)| *distance > before.size())
 }
 
 /// Whether the discrete curvature of a polygon has the extrema and inflections of its curve, in their order; `None` if
