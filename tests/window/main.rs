@@ -180,7 +180,7 @@ fn the_arc_is_corrected_at_both_ends_at_once() {
     assert!(window.query_all_by_label_contains("Largest move").count() > 0);
     // What the solve leaves is rounding.
     window.get_by_label("Length: 0");
-    window.get_by_label("Remaining error: 0  0°");
+    window.get_by_label("Remaining error: 0  0.0000°");
 }
 
 #[test]
