@@ -63,11 +63,6 @@ fn formats_with_layers_give_groups_back() {
         let found = groups(&reading);
         for (name, path) in all.into_iter().chain([("circle", &["Deck"][..])]) {
             let own = found.iter().find(|own| own.0 == name);
-            // A curve of a 3DM file has a layer.
-            let path = match (path, extension) {
-                ([], "3dm") => &["a"],
-                _ => path,
-            };
             assert_eq!(own.expect(name).1, path, "{extension}: {name}");
         }
     }

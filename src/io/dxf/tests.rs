@@ -287,9 +287,14 @@ fn curves_of_a_group_share_its_layers() {
         "Deck 2 float polygon: 5 0",
     ];
     assert_eq!(layers, expected);
-    let bytes = written(&[&curves[0]], None).unwrap().bytes;
+    let bytes = written(&[&curves[0], &curves[1]], None).unwrap().bytes;
     let read = DXF.read(&bytes).unwrap();
     assert_eq!(read.curves[0].group, Group::from("Deck"));
+    // A curve that is alone on its layer is called like it.
+    let bytes = written(&[&planar("sheer")], None).unwrap().bytes;
+    let read = DXF.read(&bytes).unwrap();
+    assert_eq!(read.curves[0].name, "sheer");
+    assert_eq!(read.curves[0].group, Group::default());
 }
 
 #[test]

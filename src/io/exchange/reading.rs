@@ -40,8 +40,12 @@ impl Drawing {
             names: Names::default(),
             chains: Names::default(),
             points: Vec::new(),
+            crowds: HashMap::new(),
             factor,
         };
+        for item in &self.items {
+            *taken.crowds.entry(item.group.clone()).or_default() += 1;
+        }
         let is_in = |space: Space| self.items.iter().any(|item| item.space == space);
         let taken_space = match is_in(Space::Edge) && !is_in(Space::Model) {
             true => Space::Edge,
@@ -101,19 +105,25 @@ struct Taken {
     chains: Names,
     /// The single points, which make one reference, with their groups.
     points: Vec<(DVec3, Group)>,
+    /// How many items each group has.
+    crowds: HashMap<Vec<String>, usize>,
     factor: f64,
 }
+
+/// The layers that items without one are on, in DXF and in 3DM.
+const DEFAULT_LAYERS: [&str; 2] = ["0", "Default"];
 
 impl Taken {
     fn take(&mut self, item: &Item) {
         let shapes = item.shapes.len();
-        let group = self.group(item);
+        let (own, layers) = self.placed(item);
+        let group = self.group(item, own, layers);
         for (index, shape) in item.shapes.iter().enumerate() {
             if let Shape::Point(point) = shape {
                 self.points.push((self.factor * *point, group.clone()));
                 continue;
             }
-            let name = match &item.name {
+            let name = match own {
                 Some(name) if shapes > 1 => self.names.free(&format!("{name} {}", index + 1)),
                 Some(name) => self.names.free(name),
                 None => self.names.of_kind(item.kind),
@@ -130,13 +140,24 @@ impl Taken {
         }
     }
 
+    /// An item that is alone on a layer and has no name is called like the layer, which then is no group; nor is the
+    /// layer that items without one are on.
+    fn placed<'a>(&self, item: &'a Item) -> (Option<&'a String>, &'a [String]) {
+        let is_alone = self.crowds.get(&item.group) == Some(&1) && item.block.is_none();
+        match (&item.name, &item.group[..]) {
+            (name, [layer]) if DEFAULT_LAYERS.contains(&layer.as_str()) => (name.as_ref(), &[]),
+            (None, [outer @ .., layer]) if is_alone => (Some(layer), outer),
+            (name, layers) => (name.as_ref(), layers),
+        }
+    }
+
     /// The group of what an item becomes: its path, its block, and the item itself if it has several pieces.
-    fn group(&mut self, item: &Item) -> Group {
-        let chain = (item.shapes.len() > 1).then(|| match &item.name {
+    fn group(&mut self, item: &Item, name: Option<&String>, layers: &[String]) -> Group {
+        let chain = (item.shapes.len() > 1).then(|| match name {
             Some(name) => self.chains.free(name),
             None => self.chains.of_kind(item.kind),
         });
-        Group::new(item.group.iter().chain(&item.block).chain(&chain))
+        Group::new(layers.iter().chain(&item.block).chain(&chain))
     }
 
     fn add_curve(

@@ -165,23 +165,20 @@ impl Ids {
     }
 }
 
+/// The layer of what is in no group, as Rhino names it.
+const DEFAULT_LAYER: &str = "Default";
+
 /// The layers, in the order of their first use; outer ones before inner ones.
-struct LayerTable<'a> {
-    name: &'a str,
+struct LayerTable {
     ids: Ids,
     indices: HashMap<Vec<String>, (i32, u128)>,
     records: Output,
 }
 
-impl<'a> LayerTable<'a> {
-    fn new(name: &'a str) -> Self {
-        let name = if name.trim().is_empty() {
-            "Default"
-        } else {
-            name
-        };
+impl LayerTable {
+    /// The layers of a file with this name.
+    fn new(name: &str) -> Self {
         Self {
-            name,
             ids: Ids::new(name),
             indices: HashMap::new(),
             records: Output::default(),
@@ -191,7 +188,7 @@ impl<'a> LayerTable<'a> {
     /// The index of the layer of a group.
     fn index(&mut self, group: &[String]) -> i32 {
         if group.is_empty() {
-            return self.layer(&[self.name.to_owned()], 0).0;
+            return self.layer(&[DEFAULT_LAYER.to_owned()], 0).0;
         }
         let mut found = (0, 0);
         for depth in 1..=group.len() {
