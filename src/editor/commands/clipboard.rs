@@ -27,7 +27,7 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if the text cannot be read; nothing is changed then.
     pub fn paste_text(&mut self, text: &str) -> Reply {
-        let reply = read(text).and_then(|read| {
+        let reply = read(text).and_then(|(read, purpose)| {
             if read.is_empty() {
                 return Ok(Note::told("There are no curves on the clipboard"));
             }
@@ -38,7 +38,7 @@ impl Editor {
                 remarks,
             };
             let incoming = Incoming {
-                purpose: Purpose::Paste,
+                purpose,
                 documents: vec![read],
             };
             self.merge(incoming, None)
@@ -131,20 +131,23 @@ impl Editor {
     }
 }
 
-/// Read a text from the clipboard: a project or a table, a drawing of another program, or the data of an SVG path.
-fn read(text: &str) -> Result<Reading, Refusal> {
+/// Read a text from the clipboard: a project or a table, of which copies are added, or a drawing of another program or
+/// the data of an SVG path, which keep their places.
+fn read(text: &str) -> Result<(Reading, Purpose), Refusal> {
     let unreadable = |error: ReadError| {
         Refusal(format!(
             "The clipboard holds no curve that can be read: {error}"
         ))
     };
     if let Some(format) = formats::of_text(text) {
-        return format.read(text.as_bytes()).map_err(unreadable);
+        let read = format.read(text.as_bytes()).map_err(unreadable)?;
+        return Ok((read, Purpose::Import));
     }
     if is_path(text) {
         let path = format!("<svg xmlns=\"{SVG}\"><path d=\"{}\"/></svg>", text.trim());
         let svg = formats::of_text(&path).ok_or("No format holds paths")?;
-        return svg.read(path.as_bytes()).map_err(unreadable);
+        let read = svg.read(path.as_bytes()).map_err(unreadable)?;
+        return Ok((read, Purpose::Import));
     }
     let project = PROJECT.read(text.as_bytes());
     let read = match &project {
@@ -153,7 +156,7 @@ fn read(text: &str) -> Result<Reading, Refusal> {
         Err(_) if text.trim_start().starts_with('{') => project,
         Err(_) => TABLE.read(text.as_bytes()),
     };
-    read.map_err(unreadable)
+    Ok((read.map_err(unreadable)?, Purpose::Paste))
 }
 
 /// The namespace of SVG.
