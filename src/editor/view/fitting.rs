@@ -24,7 +24,7 @@ const FAR_POLYGON: f64 = 8.0;
 const SPECK: f64 = 0.15;
 
 /// The shortest and the longest tooth of a comb that stays when another curve becomes active, in units of its box.
-const LEGIBLE: [f64; 2] = [0.03, 2.0];
+const LEGIBLE: std::ops::RangeInclusive<f64> = 0.03..=2.0;
 
 /// How far beside curve and polygon a fitted view follows the comb, in units of their extent.
 const COMB_REACH: f64 = 1.0;
@@ -91,10 +91,10 @@ impl View {
         let (extent, side) = (bounds.high - bounds.low, seen.high - seen.low);
         if extent.max_element() < SPECK * side.min_element() {
             self.fit_bounds(&bounds, shown.document());
-        } else if self.whole_comb_scale(shown).is_none_or(|whole| {
-            let length = comb.scale / whole;
-            LEGIBLE[0] <= length && length <= LEGIBLE[1]
-        }) {
+        } else if self
+            .whole_comb_scale(shown)
+            .is_none_or(|whole| LEGIBLE.contains(&(comb.scale / whole)))
+        {
             self.comb = comb;
         }
     }
