@@ -122,7 +122,7 @@ fn a_drawing_has_no_polygons_beside_its_curves() {
     assert_eq!(exported.references.len(), 2);
     let mut window = moved(&path, false);
     save(&mut window);
-    window.get_by_label("“polyline 1”: references aren't stored in the DXF");
+    window.get_by_label("“arc float polygon”: references aren't stored in the DXF");
     click(&mut window, "Save");
     let saved = disk::read_file(&path).expect("the file");
     assert_eq!((saved.curves.len(), saved.references.len()), (1, 0));
