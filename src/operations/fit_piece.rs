@@ -8,9 +8,8 @@ use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::fairing::counts::CountRequest;
 use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::features::{Feature, Features};
 use crate::geometry::fitting::{
-    Extrema, FitError, Fitted, PlaneFit, corners, fit_plane, is_closed,
+    Extrema, FitError, Fitted, PlaneFit, corners, fit_plane_corrected, is_closed,
 };
 use crate::geometry::{End, FloatPolygon, Progress};
 
@@ -21,7 +20,7 @@ const FARTHER: f64 = 1.5;
 const FIRST: f64 = 0.8;
 const NEAR: f64 = 0.05;
 
-/// A curve that moves by no more than this share of its size to meet its ends keeps its figures.
+/// The most that a curve moves to meet its ends to the last digits, in units of its size.
 const ROUNDING: f64 = 1e-5;
 
 /// The pieces of points, one for each curve: all, or those between corners, where closed points begin at a corner. The
@@ -140,7 +139,13 @@ impl Piece {
         // Ends that are near each other may cross: some time is kept for exact ones.
         let may_cross = !asked.periodic && asked.exact_ends != [true; 2] && are_near(&own);
         let share = if may_cross { FIRST } else { 1.0 };
-        let mut found = fit_plane(&own, &asked, &progress.hurried(share))?;
+        let fit = |asked: &PlaneFit, progress: &Progress| {
+            let corrected = |polygon: &FloatPolygon, left_out: &[usize]| {
+                self.with_ends(points, asked, (polygon, left_out), progress)
+            };
+            fit_plane_corrected(&own, asked, &corrected, progress)
+        };
+        let mut found = fit(&asked, &progress.hurried(share))?;
         let mut asked = asked;
         if found.crossing.is_some() && asked.exact_ends != [true; 2] && !asked.periodic {
             let exact = PlaneFit {
@@ -148,7 +153,7 @@ impl Piece {
                 lists_trade_off: false,
                 ..asked.clone()
             };
-            let uncrossed = fit_plane(&own, &exact, progress);
+            let uncrossed = fit(&exact, progress);
             let uncrossed = uncrossed
                 .ok()
                 .filter(|it| it.holds && it.crossing.is_none());
@@ -163,7 +168,6 @@ impl Piece {
                 (asked, found) = (exact, uncrossed);
             }
         }
-        found = self.with_ends(points, &asked, found, progress);
         for (outlier, _) in &mut found.outliers {
             *outlier = self.numbers[*outlier];
         }
@@ -231,49 +235,33 @@ impl Piece {
         ends.filter_map(target).collect()
     }
 
-    /// Bring a fitted curve to what is asked of its ends to the last digits, if that is a matter of rounding and its
-    /// features stay.
+    /// Bring a fitted curve to what is asked of its ends to the last digits, if that is a matter of rounding. `left_out`
+    /// are the places of points that do not count.
     fn with_ends(
         &self,
         points: &[DVec2],
         asked: &PlaneFit,
-        found: Fitted,
+        (polygon, left_out): (&FloatPolygon, &[usize]),
         progress: &Progress,
-    ) -> Fitted {
-        let polygon = &found.polygon;
-        let left_out = |index: usize| {
-            let outlier = |(own, _): &(usize, f64)| self.numbers.get(*own) == Some(&index);
-            found.outliers.iter().any(outlier)
+    ) -> Option<FloatPolygon> {
+        let is_left_out = |index: usize| {
+            let mut places = left_out.iter();
+            places.any(|place| self.numbers.get(*place) == Some(&index))
         };
-        let targets = self.targets(points, asked, polygon, |index| !left_out(index));
+        let targets = self.targets(points, asked, polygon, |index| !is_left_out(index));
         let size = polygon.size();
         let is_met = |(end, target): &(End, EndTarget)| {
             EndDifference::between(polygon, *end, target).residual(size) <= SHARE_OF_SIZE * size
         };
-        if !found.holds || targets.iter().all(is_met) {
-            return found;
+        // A correction would not keep the mirror image to the bit.
+        if asked.mirror.is_some() || targets.iter().all(is_met) {
+            return None;
         }
         let order = Disturbance::Differences(3);
         let corrected = correct_jointly(polygon, &targets, order, &[], progress);
-        let Ok(corrected) = corrected.map(|it| it.polygon) else {
-            return found;
-        };
-        let is_rounding = polygon
-            .deviation(&corrected)
-            .is_ok_and(|moved| moved <= ROUNDING * size);
-        let features = Features::proved(&corrected, |_| !progress.is_cancelled());
-        let has_same = features.is_some_and(|it| {
-            it.undecided.is_empty()
-                && it.count(Feature::CurvatureExtremum) == found.extrema
-                && it.count(Feature::Inflection) == found.inflections
-        });
-        match is_rounding && has_same {
-            true => Fitted {
-                polygon: corrected,
-                ..found
-            },
-            false => found,
-        }
+        let corrected = corrected.ok()?.polygon;
+        let moved = polygon.deviation(&corrected).ok()?;
+        (moved <= ROUNDING * size).then_some(corrected)
     }
 
     /// What the curve must hold: its features, its ends and the tolerance.

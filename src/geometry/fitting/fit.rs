@@ -121,6 +121,20 @@ pub fn fit_plane(
     asked: &PlaneFit,
     progress: &Progress,
 ) -> Result<Fitted, FitError> {
+    fit_plane_corrected(points, asked, &|_, _| None, progress)
+}
+
+/// Fit as [`fit_plane`] does, and let the curve be corrected before it is measured: `corrected` gets the curve and the
+/// points that do not count. What it returns counts if extrema and inflections stay, proved.
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit_plane_corrected(
+    points: &[DVec2],
+    asked: &PlaneFit,
+    corrected: &dyn Fn(&FloatPolygon, &[usize]) -> Option<FloatPolygon>,
+    progress: &Progress,
+) -> Result<Fitted, FitError> {
     let whole = Prepared::new(points, asked)?.refined_on(asked);
     let thinned = whole.thinned(asked);
     let fit = Fit {
@@ -137,7 +151,7 @@ pub fn fit_plane(
     let smoothed = || fit.task(0, None).smoothed().map(|level| fit.refined(level));
     let level = level.or_else(smoothed);
     let level = level.ok_or(FitError::NotFound)?;
-    let fitted = fit.finished(points, &level)?;
+    let fitted = fit.finished(points, &level, corrected)?;
     Ok(Fitted {
         trade_off,
         least_extrema,
@@ -630,11 +644,25 @@ impl Fit<'_> {
         FloatPolygon::new(self.asked.degree, vertices, None, self.asked.periodic)
     }
 
-    /// Take a level back to where the points are, and measure it there.
-    fn finished(&self, points: &[DVec2], level: &Level) -> Result<Fitted, FitError> {
+    /// Take a level back to where the points are, correct it and measure it there.
+    fn finished(
+        &self,
+        points: &[DVec2],
+        level: &Level,
+        corrected: &dyn Fn(&FloatPolygon, &[usize]) -> Option<FloatPolygon>,
+    ) -> Result<Fitted, FitError> {
         let prepared = self.whole;
-        let polygon = self.polygon(level)?;
-        let features = Features::proved(&polygon, |_| true).ok_or(FitError::Cancelled)?;
+        let mut polygon = self.polygon(level)?;
+        let prove = |polygon: &FloatPolygon| Features::proved(polygon, |_| true);
+        let mut features = prove(&polygon).ok_or(FitError::Cancelled)?;
+        let kinds = [Feature::CurvatureExtremum, Feature::Inflection];
+        if let Some(other) = corrected(&polygon, &prepared.outliers).filter(|_| level.holds) {
+            let own = prove(&other).ok_or(FitError::Cancelled)?;
+            let is_same = |kind: Feature| own.count(kind) == features.count(kind);
+            if own.undecided.is_empty() && kinds.into_iter().all(is_same) {
+                (polygon, features) = (other, own);
+            }
+        }
         let distances = self.distances(points, level, &polygon);
         let counts = |index: &usize| prepared.outliers.binary_search(index).is_err();
         let kept: Vec<usize> = (0..points.len()).filter(counts).collect();
