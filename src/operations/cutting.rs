@@ -141,7 +141,8 @@ fn harmonised(part: &Approximation, most: usize, progress: &Progress) -> Option<
             largest_deviation: Some(farthest),
         };
         let found = harmonise(&part.polygon, &harmony, progress).ok()?;
-        found.reached.then_some(found)
+        // The deviation of the part is told as a bound.
+        (found.reached && found.bounded).then_some(found)
     });
     let found = found.find_map(|found| found)?;
     Some(Approximation {
