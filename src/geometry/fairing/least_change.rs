@@ -21,8 +21,8 @@ pub(super) const ORDER: usize = 2;
 /// rounding there, more would let moves fade within 30 vertices.
 const LEAST_STIFFNESS: f64 = 1e-6;
 
-/// The least weight where a closed vertex beside an end is dragged, which turns or bends the end: it acts on the curve
-/// like a lever, and a softer polygon would swing up to 30 times as far with 25 vertices of degree 5, now 7 times.
+/// The least weight where a closed vertex beside an end is dragged, which turns or bends the end. It acts on the curve
+/// like a lever: of 25 vertices of degree 5 it moves the curve up to 7 times as far, with the least weight 30 times.
 const LEVER_STIFFNESS: f64 = 0.3;
 
 /// The residual of a condition, in units of the drag, up to which it counts as met: singular equations leave far more,
