@@ -119,6 +119,9 @@ const ENDS: Kind = Kind::Choice {
 /// Distances that differ by no more than this share are alike, and so are angles that differ by no more.
 const AS_CLOSE: f64 = 1e-9;
 
+/// Ends that are no farther apart than this share of the size coincide.
+const ROUNDING: f64 = 1e-12;
+
 /// The meanings of the options of [`ENDS`].
 const MEANINGS: [Option<End>; 3] = [None, Some(End::Start), Some(End::Finish)];
 
@@ -536,7 +539,7 @@ fn nearest(polygons: [&FloatPolygon; 2], given: [Option<End>; 2]) -> [End; 2] {
     let distances = gaps.iter().map(|(_, gap)| gap.distance);
     let least = distances.fold(f64::INFINITY, f64::min);
     let size = polygons.map(|polygon| polygon.size()).into_iter();
-    let as_close = least * (1.0 + AS_CLOSE) + f64::EPSILON * size.fold(0.0, f64::max);
+    let as_close = least * (1.0 + AS_CLOSE) + ROUNDING * size.fold(0.0, f64::max);
     let closest = gaps.into_iter().filter(|(_, gap)| gap.distance <= as_close);
     // Turnings that differ by rounding are alike.
     let turning = |gap: &Gap| (gap.turning / AS_CLOSE).round();
@@ -562,7 +565,9 @@ impl Gap {
             if follows { tangent } else { -tangent }
         });
         let [out, into] = tangents;
-        let turning = match way == DVec3::ZERO {
+        // A way of rounding has no direction.
+        let size = polygons.map(|polygon| polygon.size()).into_iter();
+        let turning = match way.length() <= ROUNDING * size.fold(0.0, f64::max) {
             true => out.angle_between(into),
             false => out.angle_between(way) + way.angle_between(into),
         };

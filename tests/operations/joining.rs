@@ -49,6 +49,40 @@ fn has_at(polygon: &FloatPolygon, offset: usize, part: &FloatPolygon) -> bool {
 }
 
 #[test]
+fn halves_of_a_closed_outline_join_where_they_were_cut() {
+    // As the section of a wing: both ends meet at a corner, but for rounding, and the cut meets smoothly.
+    let upper = [
+        (9.0, 1.0),
+        (8.0, 0.0),
+        (7.0, -1.0),
+        (4.0, -3.0),
+        (1.0, -2.0),
+    ];
+    let lower = upper.iter().rev().map(|(x, y)| (*x, -y));
+    let all: Vec<(f64, f64)> = upper
+        .iter()
+        .copied()
+        .chain([(0.0, 0.0)])
+        .chain(lower)
+        .collect();
+    for off in [0.0, 1e-16, -1e-15] {
+        let mut points = all.clone();
+        points[0].0 += off;
+        let whole = FloatPolygon::planar(3, &points).expect("a polygon");
+        let [start, end] = End::BOTH.map(|end| whole.end_jet(end).point);
+        assert!(start.distance(end) <= 1e-14);
+        let (first, second) = whole.split(4.0, 0).expect("two parts");
+        let parts = [("first", first), ("second", second)];
+        let curves = parts.map(|(name, part)| Curve::new(name.to_owned(), part.polygon));
+        let (_, after, report) = join(&Document::from_curves(curves), &[]);
+        assert!(report.reached);
+        assert_eq!(report.figure("method"), Some(Value::Word("merge")));
+        let joined = &only(&after).polygon;
+        assert_eq!(joined.vertices(), whole.vertices(), "{off:e}");
+    }
+}
+
+#[test]
 fn the_first_curve_keeps_its_name_its_direction_and_its_vertices() {
     // The second arc begins where the first one ends, or the other way round, and may run against it.
     let first = arc("first", 4, 0.0, 60.0);
