@@ -224,17 +224,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         lists_trade_off: pieces.len() == 1,
         ..asked
     };
-    let fitted = pieces.iter().enumerate().map(|(index, piece)| {
-        let share = |index: usize| index as f64 / pieces.len() as f64;
-        let left: usize = pieces[index..].iter().map(|it| it.numbers.len()).sum();
-        let own = progress.part(share(index), share(index + 1));
-        // What one piece leaves of its time the next ones have.
-        let own = own.hurried(piece.numbers.len() as f64 / left.max(1) as f64);
-        let fitted = piece.fit(&points, &asked, &own.of_curve(index));
-        fitted.map_err(|error| piece.told(error, index, pieces.len()))
-    });
-    let (requests, fitted): (Vec<PlaneFit>, Vec<Fitted>) =
-        fitted.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+    let fitted = fitted(&pieces, &points, &asked, &progress)?;
+    let (requests, fitted): (Vec<PlaneFit>, Vec<Fitted>) = fitted.into_iter().unzip();
     let requirements = pieces.iter().zip(&requests).zip(&fitted);
     let requirements =
         requirements.map(|((piece, asked), found)| piece.requirements(&points, asked, found));
@@ -260,6 +251,31 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         requirements: ids.zip(requirements).collect(),
         ..outcome
     })
+}
+
+/// Fit the pieces, each in a share of the time that is left. Short ones come first: what they leave the long ones have.
+fn fitted(
+    pieces: &[Piece],
+    points: &[DVec2],
+    asked: &PlaneFit,
+    progress: &Progress,
+) -> Result<Vec<(PlaneFit, Fitted)>, OperationError> {
+    let count = |piece: &Piece| piece.numbers.len();
+    let mut order: Vec<(usize, &Piece)> = pieces.iter().enumerate().collect();
+    order.sort_by_key(|(_, piece)| count(piece));
+    let mut left: usize = pieces.iter().map(count).sum();
+    let mut fitted = Vec::with_capacity(pieces.len());
+    for (place, (index, piece)) in order.into_iter().enumerate() {
+        let share = |place: usize| place as f64 / pieces.len() as f64;
+        let own = progress.part(share(place), share(place + 1));
+        let own = own.hurried(count(piece) as f64 / left.max(1) as f64);
+        left -= count(piece);
+        let found = piece.fit(points, asked, &own.of_curve(index));
+        let found = found.map_err(|error| piece.told(error, index, pieces.len()))?;
+        fitted.push((index, found));
+    }
+    fitted.sort_by_key(|(index, _)| *index);
+    Ok(fitted.into_iter().map(|(_, found)| found).collect())
 }
 
 /// List the points that a fit with some values leaves out, by their numbers from 0.
