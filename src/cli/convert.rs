@@ -30,10 +30,13 @@ impl Lowering {
                 true => "",
                 false => ", which is more than the tolerance",
             };
-            let features = match it.keeps_features {
-                true => "",
-                false => "; inflections or extrema change",
-            };
+            let features = it.changed.map_or_else(String::new, |[before, now]| {
+                let [inflections, extrema] = [0, 1].map(|kind| (before[kind], now[kind]));
+                format!(
+                    "; inflections: {} before, {} now; curvature extrema: {} before, {} now",
+                    inflections.0, inflections.1, extrema.0, extrema.1
+                )
+            });
             output::message(&format!(
                 "{}: degree {} becomes {most}, {}, off by at most {}{within}{features}",
                 quoted(&it.name),

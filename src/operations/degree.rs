@@ -209,13 +209,24 @@ pub(super) fn fewest(
     Ok(found)
 }
 
-/// Whether a curve has the features of another one, if all of those are known.
-pub(super) fn keeps_features(
+/// The inflections (in space zeros of the torsion) and the curvature extrema of two curves; `None` if they have the same
+/// features, or those of the first are not all known.
+pub(super) fn changed_features(
     polygon: &FloatPolygon,
     other: &FloatPolygon,
     progress: &Progress,
-) -> Result<bool, OperationError> {
-    Shape::of(polygon, progress)?.is_kept(other, progress)
+) -> Result<Option<[[usize; 2]; 2]>, OperationError> {
+    let own = Shape::of(polygon, progress)?;
+    if own.is_kept(other, progress)? {
+        return Ok(None);
+    }
+    let counts = |polygon: &FloatPolygon| {
+        let features = Features::proved(polygon, |_| !progress.is_cancelled());
+        let features = features.ok_or(OperationError::Cancelled)?;
+        let turns = features.count(Feature::Inflection) + features.count(Feature::TorsionZero);
+        Ok::<_, OperationError>([turns, features.count(Feature::CurvatureExtremum)])
+    };
+    Ok(Some([counts(polygon)?, counts(other)?]))
 }
 
 /// Replace the curve by an approximation whose parameter runs evenly along it.

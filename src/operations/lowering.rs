@@ -1,6 +1,6 @@
 //! Curves of a lower degree, for programs that hold no higher one.
 
-use super::degree::{Goal, fewest, keeps_features};
+use super::degree::{Goal, changed_features, fewest};
 use super::error::OperationError;
 use crate::document::{Curve, Document};
 use crate::geometry::{BezierPolygon, Progress};
@@ -21,8 +21,9 @@ pub struct Lowered {
     pub deviation: f64,
     /// Whether that is within the tolerance.
     pub is_within: bool,
-    /// Whether it has the features that it had.
-    pub keeps_features: bool,
+    /// The inflections (in space zeros of the torsion) and the curvature extrema, before and now; `None` if they are the
+    /// same, or not all known.
+    pub changed: Option<[[usize; 2]; 2]>,
 }
 
 /// Give all curves of a higher degree than `most` that degree, with the fewest vertices within a tolerance (without one
@@ -59,7 +60,7 @@ pub fn lowered(
                 vertices: found.polygon.vertices().len(),
                 deviation: found.deviation,
                 is_within: found.deviation <= tolerance,
-                keeps_features: keeps_features(polygon, &found.polygon, progress)?,
+                changed: changed_features(polygon, &found.polygon, progress)?,
             });
             copy = Curve {
                 group: copy.group,
