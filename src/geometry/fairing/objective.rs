@@ -12,12 +12,14 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// A sum of squares of the vertices p, which were at p⁰.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Objective {
-    /// The disturbance Σ|Δᵏ(p − p⁰)|² + μ Σ|p − p⁰|².
+    /// The disturbance Σ|Δᵏ(p − p⁰)|² + μ Σ|p − p⁰|² + λ ∫|C − C⁰|² du.
     Disturbance {
         /// The order k of the differences.
         order: usize,
         /// The weight μ.
         fidelity: f64,
+        /// The weight λ.
+        curve: f64,
     },
     /// The moves of the curve Σ|C − C⁰|² + ν Σ|C″ − C⁰″|² at samples, the derivatives by u.
     CurveMoves {
@@ -114,7 +116,11 @@ impl Objective {
                 .sum()
         };
         match *self {
-            Self::Disturbance { order, fidelity } => {
+            Self::Disturbance {
+                order,
+                fidelity,
+                curve,
+            } => {
                 moves(fidelity.sqrt());
                 let stencil = difference_stencil(order);
                 for first in windows(shape.polygon, stencil.len()) {
@@ -122,18 +128,18 @@ impl Objective {
                     let terms: Vec<(usize, f64)> = touched.zip(stencil.iter().copied()).collect();
                     row(Row::Vector(moved(&terms), &terms));
                 }
+                if curve > 0.0 {
+                    let factor = (curve / SAMPLES as f64).sqrt();
+                    curve_rows(shape.polygon, unknowns, &[(0, factor)], &mut |terms| {
+                        row(Row::Vector(moved(terms), terms));
+                    });
+                }
             }
             Self::CurveMoves { bending } => {
-                for piece in 0..SAMPLES * shape.polygon.segments() {
-                    let t = ((piece % SAMPLES) as f64 + 0.5) / SAMPLES as f64;
-                    let weights = JetWeights::of_segment(shape.polygon, piece / SAMPLES, t);
-                    for (order, factor) in [(0, 1.0), (2, bending.sqrt())] {
-                        let terms = weights.terms(order);
-                        let terms = terms.map(|(vertex, weight)| (vertex, factor * weight));
-                        let terms: Vec<(usize, f64)> = terms.collect();
-                        row(Row::Vector(moved(&terms), &terms));
-                    }
-                }
+                let factors = [(0, 1.0), (2, bending.sqrt())];
+                curve_rows(shape.polygon, unknowns, &factors, &mut |terms| {
+                    row(Row::Vector(moved(terms), terms));
+                });
             }
             Self::Harmony {
                 order,
@@ -167,6 +173,33 @@ impl Objective {
 enum Row<'a> {
     Scalar(f64, &'a [(usize, DVec3)]),
     Vector(DVec3, &'a [(usize, f64)]),
+}
+
+/// Visit the weights of the vertices in derivatives of the curve at samples, times a factor for each
+/// order, as far as they depend on the unknowns.
+fn curve_rows(
+    polygon: &FloatPolygon,
+    unknowns: &Unknowns,
+    factors: &[(usize, f64)],
+    row: &mut impl FnMut(&[(usize, f64)]),
+) {
+    for segment in 0..polygon.segments() {
+        let mut reached = wrapped(polygon, segment, polygon.degree() + 1);
+        if !reached.any(|vertex| unknowns.moves(vertex)) {
+            continue;
+        }
+        for sample in 0..SAMPLES {
+            let t = (sample as f64 + 0.5) / SAMPLES as f64;
+            let weights = JetWeights::of_segment(polygon, segment, t);
+            for (order, factor) in factors {
+                let terms = weights.terms(*order);
+                let terms: Vec<_> = terms
+                    .map(|(vertex, weight)| (vertex, factor * weight))
+                    .collect();
+                row(&terms);
+            }
+        }
+    }
 }
 
 /// Visit the differences of a sequence, times a factor, as far as they depend on the unknowns.
