@@ -1,6 +1,7 @@
 //! The status bar: the mouse's next action, and its place.
 
-use eframe::egui::{Align, Label, Layout, RichText, Role, Sense, Ui, WidgetInfo, vec2};
+use eframe::egui::text::LayoutJob;
+use eframe::egui::{Align, Label, Layout, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::action::Action;
 use super::chips::{self, chips_ui};
@@ -13,16 +14,19 @@ use crate::editor::{CurvatureDisplay, Editor, Readout};
 use crate::geometry::expressions::LengthUnit;
 
 /// The bar's height in points.
-pub const HEIGHT: f32 = 28.0;
+pub const HEIGHT: f32 = 34.0;
 
-/// The width that is kept for the hint.
-const HINT: f32 = 100.0;
+/// The width that is kept for the hint: its longest ones fit in two lines of it.
+const HINT: f32 = 320.0;
+
+/// The lines that the hint takes at most.
+const HINT_ROWS: usize = 2;
 
 /// The space between cells.
 const GAP: f32 = 4.0 * STEP;
 
 /// The cells that give way where there is too little room, the first one first.
-const GIVING_WAY: [&str; 5] = ["u", "t", "κ", "R", "scale"];
+const GIVING_WAY: [&str; 6] = ["degree", "scale", "u", "t", "κ", "R"];
 
 /// Show the bar; `hint` describes the mouse's next action.
 pub fn status_bar_ui(
@@ -47,10 +51,18 @@ pub fn status_bar_ui(
         }
         chips_ui(ui, editor, actions);
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            let hint = RichText::new(hint).color(Tokens::of(ui).text);
-            ui.add(Label::new(hint).truncate());
+            hint_ui(ui, hint);
         });
     });
+}
+
+/// The hint, in as many lines as it needs and may take; one that is cut shows all of it under the pointer.
+fn hint_ui(ui: &mut Ui, hint: &str) {
+    let (font, colour) = (theme::small_font(), Tokens::of(ui).text);
+    let mut job = LayoutJob::simple(hint.to_owned(), font, colour, ui.available_width());
+    job.wrap.max_rows = HINT_ROWS;
+    let galley = ui.painter().layout_job(job);
+    ui.add(Label::new(galley));
 }
 
 /// A cell: its name, its text and its width.
