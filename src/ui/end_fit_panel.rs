@@ -262,7 +262,11 @@ fn last_step_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
         let bends = report.target.is_some_and(|target| {
             target.curvature.is_some() || target.slope.is_some() || target.normal.is_some()
         });
-        let instead = "The steps meet no curvature: use “Both ends at once”";
+        let instead = if bends {
+            "The steps meet no curvature: use “Both ends at once”"
+        } else {
+            "Set a target first, on a curve that is not locked"
+        };
         let response = ui.add_enabled(is_ready(report) && !bends, button);
         let response = response.on_hover_text(help).on_disabled_hover_text(instead);
         response.clicked().then_some(EndFitAction::Repeat)
@@ -318,11 +322,6 @@ fn repeat_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
         ui.label(RichText::new(passes).color(Tokens::of(ui).faint_text));
         typed
     });
-    // Once the ends are met, or the loop has said the same, there is nothing to warn of.
-    let has_failed = report.outcome.as_ref().is_some_and(Result::is_err);
-    if !report.within && !has_failed {
-        overlap_ui(ui, report.overlap);
-    }
     tolerance.inner.map(EndFitAction::SetTolerance)
 }
 
@@ -342,21 +341,28 @@ fn overlap_ui(ui: &mut Ui, overlap: EndOverlap) {
     widgets::remark_with_icon(ui, Icon::Info, &text, warning);
 }
 
-/// Show the last action's message.
+/// Show the last action's message, and below it whether ends that are not met yet share vertices.
 fn outcome_ui(ui: &mut Ui, report: &EndFitReport) {
     let tokens = Tokens::of(ui);
-    let (text, icon, colour) = match &report.outcome {
+    let message = match &report.outcome {
+        None => None,
+        Some(Ok(note)) if note.warns => Some((&note.text, Icon::TriangleAlert, tokens.warning)),
+        Some(Ok(note)) => Some((&note.text, Icon::Check, tokens.good)),
+        Some(Err(Refusal(reason))) => Some((reason, Icon::TriangleAlert, tokens.error)),
+    };
+    match message {
+        Some((text, icon, colour)) if !text.is_empty() => {
+            widgets::remark_with_icon(ui, icon, text, colour);
+        }
         None if report.target.is_none() => {
             let text = "No target yet: click its place on the canvas, or “Use current end”.";
             widgets::note(ui, text);
-            return;
         }
-        None => return,
-        Some(Ok(note)) if note.warns => (&note.text, Icon::TriangleAlert, tokens.warning),
-        Some(Ok(note)) => (&note.text, Icon::Check, tokens.good),
-        Some(Err(Refusal(reason))) => (reason, Icon::TriangleAlert, tokens.error),
-    };
-    if !text.is_empty() {
-        widgets::remark_with_icon(ui, icon, text, colour);
+        _ => {}
+    }
+    // A refusal says the same.
+    let has_failed = matches!(report.outcome, Some(Err(_)));
+    if !report.within && !has_failed {
+        overlap_ui(ui, report.overlap);
     }
 }
