@@ -99,6 +99,22 @@ pub enum OperationError {
         /// The other, as it is shown.
         second: &'static str,
     },
+    /// A parameter means nothing without another one.
+    #[error("{given} needs {needed}")]
+    Needs {
+        /// The one, as it is shown.
+        given: &'static str,
+        /// The other, as it is shown.
+        needed: &'static str,
+    },
+    /// A curve with a matched end was to be replaced by its mirror image.
+    #[error("the {} follows {}: release the match, or mirror a copy (--copy)", .end.name(), quoted(.source_name))]
+    MirroredMatch {
+        /// The matched end.
+        end: End,
+        /// What it follows.
+        source_name: String,
+    },
     /// A direction is a vector of length 0.
     #[error("{label}: a vector of length 0 has no direction")]
     NoDirection {

@@ -69,6 +69,7 @@ macro_rules! table {
 
 table! {
     reverse,
+    mirror,
     reinterpret_degree,
     elevate_degree,
     reduce_degree,

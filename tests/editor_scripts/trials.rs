@@ -105,7 +105,8 @@ fn check_left(script: &Script, before: &Document) {
 }
 
 /// The operations with parameters that can be tried out on the s-curve and change it.
-const CHANGING: [&str; 7] = [
+const CHANGING: [&str; 8] = [
+    "mirror",
     "reinterpret-degree",
     "elevate-degree",
     "reduce-degree",
@@ -425,6 +426,7 @@ fn operations_are_offered_where_they_can_run() {
     let script = Script::example("periodic");
     for (name, is_offered) in [
         ("reverse", true),
+        ("mirror", true),
         ("reinterpret-degree", true),
         ("elevate-degree", true),
         ("reduce-degree", true),

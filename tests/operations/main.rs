@@ -15,6 +15,7 @@ mod joining;
 mod locks;
 mod matches;
 mod mineur_farin;
+mod mirrors;
 mod parts;
 mod random;
 mod reached;

@@ -1,0 +1,144 @@
+//! Mirror images of curves.
+
+use batten::document::{Curve, Edit, EndMatch, MatchPlace};
+use batten::geometry::end_correction::EndTarget;
+use batten::geometry::{Continuity, End};
+use batten::operations::Value;
+use glam::DVec3;
+
+use crate::common::Random;
+use crate::runner::{ROUNDING, Runner};
+
+/// The places of the options.
+const AXES: [(usize, [f64; 3]); 3] = [
+    (0, [-1.0, 1.0, 1.0]),
+    (1, [1.0, -1.0, 1.0]),
+    (2, [-1.0, -1.0, 1.0]),
+];
+const PLANES: [(usize, [f64; 3]); 3] = [
+    (1, [1.0, 1.0, -1.0]),
+    (2, [1.0, -1.0, 1.0]),
+    (3, [-1.0, 1.0, 1.0]),
+];
+
+fn random(seed: u64, in_space: bool) -> Runner {
+    Runner::of(Random(seed).gentle(4, 9, in_space, seed.is_multiple_of(2)))
+}
+
+#[test]
+fn images_in_axes_and_planes_are_exact_and_their_own_inverses() {
+    let of = |name, options: [(usize, [f64; 3]); 3]| options.map(|(at, signs)| (name, at, signs));
+    let all = [of("axis", AXES), of("plane", PLANES)].concat();
+    for (seed, (name, at, signs)) in all.into_iter().enumerate() {
+        let runner = random(seed as u64, true);
+        let given = [(name, Value::Choice(at))];
+        let (_, curves) = runner.done("mirror", &given);
+        let [image] = &curves[..] else {
+            panic!("it replaces the curve: {curves:?}");
+        };
+        let signs = DVec3::from(signs);
+        let pairs = runner
+            .polygon()
+            .vertices()
+            .iter()
+            .zip(image.polygon.vertices());
+        for (before, after) in pairs {
+            assert_eq!(*before * signs, *after, "{name} {at}");
+        }
+        assert_eq!(runner.polygon().weights(), image.polygon.weights());
+        let (_, back) = Runner::curves(curves).done("mirror", &given);
+        assert_eq!(back[0].polygon, *runner.polygon(), "{name} {at}");
+    }
+}
+
+#[test]
+fn a_line_keeps_its_points_and_turns_a_perpendicular() {
+    let runner = random(5, false);
+    let line = [
+        ("from", Value::List(vec![1.0, 2.0])),
+        ("to", Value::List(vec![4.0, 6.0])),
+    ];
+    let (_, curves) = runner.done("mirror", &line);
+    let (through, along) = (DVec3::new(1.0, 2.0, 0.0), DVec3::new(0.6, 0.8, 0.0));
+    let size = runner.polygon().size();
+    let pairs = runner
+        .polygon()
+        .vertices()
+        .iter()
+        .zip(curves[0].polygon.vertices());
+    for (before, after) in pairs {
+        let middle = 0.5 * (*before + *after) - through;
+        assert!(middle.cross(along).length() <= ROUNDING * size);
+        assert!((*after - *before).dot(along).abs() <= ROUNDING * size);
+    }
+    let half = [("from", Value::List(vec![1.0, 2.0]))];
+    assert_eq!(runner.refused("mirror", &half), "From needs To");
+    let point = [&line[..1], &[("to", Value::List(vec![1.0, 2.0]))]].concat();
+    assert!(runner.refused("mirror", &point).contains("length 0"));
+    let both = [&line[..], &[("plane", Value::Choice(1))]].concat();
+    let refused = runner.refused("mirror", &both);
+    assert_eq!(refused, "From and Plane cannot both be given");
+}
+
+#[test]
+fn targets_and_locks_go_along() {
+    let target = EndTarget {
+        point: DVec3::new(3.0, 1.0, 0.0),
+        direction: Some(DVec3::new(1.0, 2.0, 0.0)),
+        curvature: Some(0.25),
+        slope: Some(-0.5),
+        normal: None,
+    };
+    let locked = |curve| Edit::SetVerticesLocked {
+        curve,
+        vertices: vec![2, 5],
+        locked: true,
+    };
+    let runner = random(3, false).with_target(End::Start, target);
+    let id = runner.id();
+    let runner = runner.edited(locked(id));
+    let (_, curves) = runner.done("mirror", &[]);
+    let image = &curves[0];
+    assert_eq!(image.locked_vertices.iter().collect::<Vec<_>>(), [2, 5]);
+    let found = image.targets.start.expect("a target");
+    assert_eq!(found.point, DVec3::new(-3.0, 1.0, 0.0));
+    assert_eq!(found.direction, Some(DVec3::new(-1.0, 2.0, 0.0)));
+    assert_eq!([found.curvature, found.slope], [Some(-0.25), Some(0.5)]);
+    let (_, curves) = runner.done("mirror", &[("axis", Value::Choice(2))]);
+    let found = curves[0].targets.start.expect("a target");
+    assert_eq!([found.curvature, found.slope], [Some(0.25), Some(-0.5)]);
+    // The image of an end has the image of its curvature.
+    let [before, after] =
+        [runner.polygon(), &image.polygon].map(|it| it.end_jet(End::Finish).curvature_of(true));
+    assert!((before + after).abs() <= ROUNDING * before.abs());
+}
+
+#[test]
+fn a_copy_leaves_the_curve_and_a_matched_end_is_not_torn_off() {
+    let first = random(7, false).curve().clone();
+    let second = Curve {
+        name: "second".to_owned(),
+        ..first.clone()
+    };
+    let runner = Runner::curves(vec![first, second]);
+    let document = runner.input.document();
+    let ids: Vec<_> = document.ids().collect();
+    let matched = EndMatch {
+        curve: ids[0],
+        end: End::Start,
+        source: ids[1],
+        place: MatchPlace::End(End::Start),
+        continuity: Continuity::G1,
+        reversed: false,
+    };
+    let runner = runner.edited(Edit::SetMatch(matched));
+    let refused = runner.refused("mirror", &[]);
+    assert_eq!(
+        refused,
+        "the start follows “second”: release the match, or mirror a copy (--copy)"
+    );
+    let (_, curves) = runner.done("mirror", &[("copy", Value::Switch(true))]);
+    assert_eq!(curves.len(), 3);
+    assert_eq!(curves[0].polygon, *runner.polygon());
+    assert_eq!(curves[2].name, "curve 2");
+}
