@@ -1,96 +1,92 @@
-//! The distance of a curve from another curve or from a reference.
+//! The deviation between two curves or references, from both sides.
 
 use glam::DVec3;
 
 use crate::analysis::item::Item;
-use crate::geometry::distance::MeasuredDeviation;
-use crate::geometry::{Differentiable, FloatPolygon, Progress};
+use crate::geometry::distance::{DistanceError, SideDeviation, Whisker};
+use crate::geometry::{ParametricCurve, Progress};
 
-/// The distance of a curve from another one, or of points from a curve: true distances, to the nearest point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Distance {
-    /// The largest distance.
-    pub largest: f64,
-    /// The mean: over the arc length of the curve, or over the points.
-    pub mean: f64,
-    /// The parameter of the curve where the largest is.
-    pub u: f64,
-    /// The parameter of the other curve there, or the number of the point.
-    pub t: f64,
-    /// The two places between which the largest is, the first one on the curve.
-    pub places: [DVec3; 2],
+/// The deviation between two curves or references: true distances, from each of them to the nearest points of the
+/// other. Points count from their side alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deviation {
+    /// How far the first is from the second, and the second from the first, where that side counts.
+    pub sides: [Option<SideDeviation>; 2],
 }
 
-impl Distance {
-    /// Measure the distance of a curve from another curve or a reference, or of a list of points from the
-    /// curve. `None` for an empty list, and after a cancellation.
-    pub fn measure(polygon: &FloatPolygon, other: &Item, progress: &Progress) -> Option<Self> {
-        match other {
-            Item::Curve(other) => {
-                let end = other.polygon.segments() as f64;
-                Self::between(polygon, &other.polygon, [0.0, end], progress)
+impl Deviation {
+    /// Measure the deviation between two curves or references; `None` between two lists of points.
+    ///
+    /// # Errors
+    /// As [`SideDeviation::of_curve`].
+    pub fn measure(items: [&Item; 2], progress: &Progress) -> Result<Option<Self>, DistanceError> {
+        let [first, second] = items.map(Shape::of);
+        let sides = match (&first, &second) {
+            (Shape::Curve(first), Shape::Curve(second)) => {
+                let there = SideDeviation::of_curve(*first, *second, progress)?;
+                let back = SideDeviation::of_curve(*second, *first, progress)?;
+                [Some(there), Some(back)]
             }
-            Item::Reference(other) => match other.points() {
-                Some(points) => Self::of_points(polygon, &points, progress),
-                None => Self::between(polygon, &other.curve, other.curve.interval(), progress),
+            (Shape::Curve(curve), Shape::Points(points)) => {
+                [None, SideDeviation::of_points(points, *curve, progress)?]
+            }
+            (Shape::Points(points), Shape::Curve(curve)) => {
+                [SideDeviation::of_points(points, *curve, progress)?, None]
+            }
+            (Shape::Points(_), Shape::Points(_)) => return Ok(None),
+        };
+        Ok(Some(Self { sides }))
+    }
+
+    /// The largest distance of both sides, and the number of its side.
+    pub fn largest(&self) -> Option<(usize, &Whisker)> {
+        let sides = self.sides.iter().enumerate();
+        let known = sides.filter_map(|(side, it)| Some((side, &it.as_ref()?.largest)));
+        known.reduce(|best, it| match it.1.distance() > best.1.distance() {
+            true => it,
+            false => best,
+        })
+    }
+
+    /// The whiskers of both sides.
+    pub fn whiskers(&self) -> impl Iterator<Item = &Whisker> {
+        let sides = self.sides.iter().flatten();
+        sides.flat_map(|side| &side.whiskers)
+    }
+
+    /// The mean distance, over the arc length of both sides or over the points.
+    pub fn mean(&self) -> f64 {
+        self.average(|side| side.mean)
+    }
+
+    /// The root of the mean square of the distance, over the same.
+    pub fn rms(&self) -> f64 {
+        self.average(|side| side.rms * side.rms).sqrt()
+    }
+
+    fn average(&self, value: impl Fn(&SideDeviation) -> f64) -> f64 {
+        let sides = self.sides.iter().flatten();
+        let (sum, extent) = sides.fold((0.0, 0.0), |(sum, extent), side| {
+            (sum + value(side) * side.extent, extent + side.extent)
+        });
+        if extent > 0.0 { sum / extent } else { 0.0 }
+    }
+}
+
+/// What distances are measured of.
+enum Shape<'a> {
+    Curve(&'a dyn ParametricCurve),
+    Points(Vec<DVec3>),
+}
+
+impl<'a> Shape<'a> {
+    fn of(item: &'a Item) -> Self {
+        match item {
+            Item::Curve(curve) => Self::Curve(&curve.polygon),
+            Item::Reference(reference) => match reference.points() {
+                Some(points) => Self::Points(points),
+                None => Self::Curve(&reference.curve),
             },
         }
-    }
-
-    fn between(
-        polygon: &FloatPolygon,
-        other: &dyn Differentiable,
-        reach: [f64; 2],
-        progress: &Progress,
-    ) -> Option<Self> {
-        let [from, to] = reach;
-        let segments = polygon.segments() as f64;
-        let beside = |u: f64| from + (to - from) * u / segments;
-        let found = MeasuredDeviation::measure(polygon, other, &beside, reach, progress).ok()?;
-        Some(Self {
-            largest: found.largest,
-            mean: found.mean,
-            u: found.u,
-            t: found.t,
-            places: [polygon.point(found.u), other.derivatives(found.t, 0)[0]],
-        })
-    }
-
-    fn of_points(polygon: &FloatPolygon, points: &[DVec3], progress: &Progress) -> Option<Self> {
-        let nearest = points
-            .iter()
-            .map(|point| (!progress.is_cancelled()).then(|| polygon.nearest(*point)));
-        let nearest: Vec<_> = nearest.collect::<Option<_>>()?;
-        let sum: f64 = nearest.iter().map(|nearest| nearest.distance).sum();
-        let places = nearest.iter().zip(points).enumerate();
-        let (index, (found, point)) =
-            places.max_by(|(_, (a, _)), (_, (b, _))| a.distance.total_cmp(&b.distance))?;
-        Some(Self {
-            largest: found.distance,
-            mean: sum / points.len() as f64,
-            u: found.u,
-            t: index as f64,
-            places: [found.point, *point],
-        })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-
-    use super::*;
-    use crate::document::Curve;
-
-    #[test]
-    fn a_cancelled_measurement_has_no_distance() {
-        let line =
-            |y: f64| FloatPolygon::planar(2, &[(0.0, y), (1.0, y), (2.0, y)]).expect("a polygon");
-        let other = Item::Curve(Arc::new(Curve::new("line".to_owned(), line(1.0))));
-        let progress = Progress::default();
-        let measured = Distance::measure(&line(0.0), &other, &progress);
-        assert!(measured.is_some_and(|distance| distance.largest == 1.0));
-        progress.cancel();
-        assert_eq!(Distance::measure(&line(0.0), &other, &progress), None);
     }
 }

@@ -7,6 +7,7 @@ use clap::{CommandFactory, Error, Parser, Subcommand};
 
 use super::apply::Application;
 use super::apply_arguments::{ApplyArguments, Given};
+use super::compare::Compared;
 use super::convert::Lowering;
 use super::ends::{Destination, STANDARD, Source};
 use super::list::Listed;
@@ -157,6 +158,33 @@ enum Command {
         #[arg(long, value_name = "NAME")]
         curve: Option<String>,
     },
+    /// Print how far two curves or references are from each other, as JSON
+    ///
+    /// Distances go to the nearest points, from both sides; points count from their side alone. Means are over the
+    /// arc length, or over the points.
+    Compare {
+        /// The file of the first one, or - for the standard input; its extension tells the format
+        #[arg(value_name = "A")]
+        a: PathBuf,
+        /// The file of the second one, which may be the same file
+        #[arg(value_name = "B")]
+        b: PathBuf,
+        /// The curve or reference of A; needed where the file has several
+        #[arg(long, value_name = "NAME")]
+        curve: Option<String>,
+        /// The curve or reference of B; needed where the file has several
+        #[arg(long, value_name = "NAME")]
+        with: Option<String>,
+        /// The largest distance that is allowed: beyond it the exit code is 1, and whiskers are counted
+        #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
+        limit: Option<f64>,
+        /// The format to read both, whatever the files' extensions
+        #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::readable()))]
+        from_format: Option<&'static Format>,
+        /// The columns of x, y and, in space, z in tables of points, by numbers from 1 or by names
+        #[arg(long, value_name = "COLUMNS", value_parser = columns)]
+        columns: Option<ColumnChoice>,
+    },
     /// Apply an operation to a curve of a file, or of each of many, and print what it did as JSON
     ///
     /// The file that is written holds everything that was read, with the changes made. Nothing is
@@ -246,6 +274,13 @@ pub(super) enum Task {
         density: Density,
         /// The name of the curve that was chosen.
         curve: Option<String>,
+    },
+    /// Compare two curves or references.
+    Compare {
+        /// The two.
+        compared: [Compared; 2],
+        /// The largest distance that is allowed.
+        limit: Option<f64>,
     },
     /// List the operations.
     Operations,
@@ -357,6 +392,27 @@ impl Arguments {
                 },
                 curve,
             },
+            Some(Command::Compare {
+                a,
+                b,
+                curve,
+                with,
+                limit,
+                from_format,
+                columns,
+            }) => {
+                let compared = |path, name, columns| {
+                    let source = source("compare", path, from_format, columns)?;
+                    Ok::<_, Error>(Compared { source, name })
+                };
+                Task::Compare {
+                    compared: [
+                        compared(a, curve, columns.clone())?,
+                        compared(b, with, columns)?,
+                    ],
+                    limit,
+                }
+            }
             Some(Command::Apply(ApplyArguments::List)) => Task::Operations,
             Some(Command::Apply(ApplyArguments::Run(mut given))) => match given.many.take() {
                 Some(many) => {

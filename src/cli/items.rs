@@ -43,6 +43,26 @@ pub(super) fn found(
     }
 }
 
+/// Find the curve or reference with a name; without one the only curve or, if there is none, the only reference.
+/// `option` gives the name.
+pub(super) fn only(
+    document: &Document,
+    name: Option<&str>,
+    option: &str,
+) -> anyhow::Result<CurveId> {
+    let (curves, all) = (
+        items(document, Inputs::One),
+        items(document, Inputs::OneOrNone),
+    );
+    let offered = if curves.is_empty() { &all } else { &curves };
+    match (name, &offered[..]) {
+        (Some(name), _) => found(&all, Inputs::OneOrNone, name),
+        (None, [(only, _)]) => Ok(*only),
+        (None, []) => bail!("there is neither a curve nor a reference"),
+        (None, _) => bail!("choose one with {option}: {}", listed(offered)),
+    }
+}
+
 /// List items in a message.
 pub(super) fn listed(items: &[(CurveId, &str)]) -> String {
     let names: Vec<String> = items.iter().map(|(_, name)| quoted(name)).collect();

@@ -6,6 +6,7 @@ mod apply_arguments;
 mod arguments;
 mod batch;
 mod choice_parser;
+mod compare;
 mod convert;
 mod edit;
 mod ends;
@@ -91,6 +92,9 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
             density,
             curve,
         }) => points::run(&source, &destination, density, curve.as_deref()),
+        Ok(Task::Compare { compared, limit }) => {
+            return Request::Done(exit_code(compare::run(compared.each_ref(), limit)));
+        }
         Ok(Task::List {
             file,
             format,

@@ -4,7 +4,7 @@ use anyhow::{Context, anyhow, bail};
 use glam::DVec3;
 
 use super::ends::{Destination, Source};
-use super::items::{found, items, listed};
+use super::items::only;
 use super::output::{self, Messages};
 use crate::document::{CurveId, Document, Reference, quoted};
 use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
@@ -12,7 +12,6 @@ use crate::geometry::{
     ParametricCurve, Spacing, counted, polyline_deviation, polyline_within, rounded_up,
 };
 use crate::io::WriteError;
-use crate::operations::Inputs;
 
 /// How many points are placed.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +34,7 @@ pub(super) fn run(
 ) -> anyhow::Result<()> {
     let format = destination.format()?;
     let document = source.document(None, &Messages::Printed)?;
-    let id = chosen(&document, name).with_context(|| source.name())?;
+    let id = only(&document, name, "--curve").with_context(|| source.name())?;
     let curve: &dyn ParametricCurve = match (document.curve(id), document.reference(id)) {
         (Some(curve), _) => &curve.polygon,
         (None, Some(reference)) => &reference.curve,
@@ -72,21 +71,6 @@ pub(super) fn run(
         quoted(document.name(id).unwrap_or_default()),
     ));
     Ok(())
-}
-
-/// Find the item with a name; without one the only curve or, if there is none, the only reference.
-fn chosen(document: &Document, name: Option<&str>) -> anyhow::Result<CurveId> {
-    let (curves, all) = (
-        items(document, Inputs::One),
-        items(document, Inputs::OneOrNone),
-    );
-    let offered = if curves.is_empty() { &all } else { &curves };
-    match (name, &offered[..]) {
-        (Some(name), _) => found(&all, Inputs::OneOrNone, name),
-        (None, [(only, _)]) => Ok(*only),
-        (None, []) => bail!("there is neither a curve nor a reference"),
-        (None, _) => bail!("choose one with --curve: {}", listed(offered)),
-    }
 }
 
 /// The title of the table: the name of the only list of points beside the only curve, which was made of it, or

@@ -1,14 +1,21 @@
-//! The distance from the active curve or reference to another one, in the inspector.
+//! The deviation of the active curve or reference from another one, in the inspector.
 
 use eframe::egui::Ui;
 
-use super::{figures, plots, widgets};
-use crate::analysis::Distance;
+use super::number_field::NumberField;
+use super::whisker_fields::whisker_fields_ui;
+use super::{document_unit, figures, plots, widgets};
+use crate::analysis::Deviation;
 use crate::document::CurveId;
-use crate::editor::Editor;
+use crate::editor::{Editor, Whiskers};
+use crate::geometry::distance::Whisker;
+use crate::geometry::parameters::Quantity;
 
-/// Show the choice of the other curve and the distances to it.
-pub fn distance_ui(ui: &mut Ui, editor: &mut Editor) {
+/// The width of the field for the limit.
+const FIELD: f32 = 96.0;
+
+/// Show the choice of the other curve and the deviation from it.
+pub fn deviation_ui(ui: &mut Ui, editor: &mut Editor) {
     if editor.document().all_ids().count() < 2 {
         return;
     }
@@ -18,27 +25,77 @@ pub fn distance_ui(ui: &mut Ui, editor: &mut Editor) {
     let Some(compared) = editor.sight().compared() else {
         return;
     };
-    match editor.sight().distance() {
-        Some(distance) => figures_ui(ui, editor, compared, distance),
+    let mut whiskers = editor.view().whiskers;
+    match editor.sight().deviation() {
+        Some(deviation) => {
+            figures_ui(ui, editor, compared, deviation);
+            let scale = editor.sight().deviation_scale();
+            widgets::form_row(ui, "Whiskers", |ui| {
+                whisker_fields_ui(ui, scale, &mut whiskers);
+            });
+            limit_ui(ui, deviation, &mut whiskers);
+        }
         None => drop(widgets::note(
             ui,
-            "Distances are measured between a curve and another curve or a reference.",
+            "Deviations are measured where one of the two is a curve.",
         )),
     }
+    editor.view_mut().whiskers = whiskers;
 }
 
-fn figures_ui(ui: &mut Ui, editor: &Editor, compared: CurveId, distance: &Distance) {
-    let short = |value: f64| figures::significant(value, 4);
-    widgets::figure_row(ui, "Largest distance", &short(distance.largest));
-    widgets::figure_row(ui, "Mean distance", &short(distance.mean));
-    let document = editor.document();
-    let mut both = [editor.active(), Some(compared)].into_iter().flatten();
-    let reference = both.find_map(|id| document.reference(id));
-    let other = match reference {
-        Some(reference) if reference.points().is_some() => format!("point {}", distance.t),
-        Some(_) => format!("t = {}", short(distance.t)),
-        None => format!("u = {}", short(distance.t)),
+/// The limit, and how many whiskers are beyond it.
+fn limit_ui(ui: &mut Ui, deviation: &Deviation, whiskers: &mut Whiskers) {
+    widgets::form_row(ui, "Limit", |ui| {
+        let shown = whiskers.limit.map(|it| figures::significant(it, 4));
+        let field = NumberField::new(
+            "Deviation limit",
+            whiskers.limit.unwrap_or(0.0),
+            shown.unwrap_or("none".to_owned()),
+        );
+        let field = field.range(0.0..=f64::MAX).quantity(Quantity::Length);
+        let field = field.help("Mark and count whiskers beyond it; 0: no limit");
+        if let Some(limit) = field.width(FIELD).typed(ui) {
+            whiskers.limit = Some(limit).filter(|limit| *limit > 0.0);
+        }
+        if let Some(limit) = whiskers.limit {
+            let is_beyond = |it: &&Whisker| it.distance() > limit;
+            let beyond = deviation.whiskers().filter(is_beyond).count();
+            let of = deviation.whiskers().count();
+            widgets::caption(ui, &format!("{beyond} of {of} beyond"));
+        }
+    });
+}
+
+fn figures_ui(ui: &mut Ui, editor: &Editor, compared: CurveId, deviation: &Deviation) {
+    let Some((side, found)) = deviation.largest() else {
+        return;
     };
-    let place = format!("u = {}, {other}", short(distance.u));
+    let length = |value: f64| document_unit::length(ui.ctx(), figures::significant(value, 4));
+    let [largest, mean, rms] = [found.distance(), deviation.mean(), deviation.rms()].map(length);
+    let from = deviation.sides.each_ref().map(|it| {
+        let largest = it.as_ref().map(|it| length(it.largest.distance()));
+        largest.unwrap_or("–".to_owned())
+    });
+    widgets::figure_row(ui, "Largest distance", &largest);
+    widgets::figure_row(ui, "Mean, RMS", &format!("{mean}, {rms}"));
+    widgets::figure_row(ui, "There, back", &from.join(", ")).on_hover_text(
+        "Largest distance of this one from the other, and of the other from this one",
+    );
+    let ids = [editor.active(), Some(compared)];
+    let at = |item: usize, value: f64| place(editor, ids[item], value);
+    let (own, other) = (at(side, found.at), at(1 - side, found.nearest_at));
+    let of_curve = found.side.map(|it| format!(", {}", it.name()));
+    let place = format!("{own}, {other}{}", of_curve.unwrap_or_default());
     widgets::figure_row(ui, "Largest at", &place);
+}
+
+/// A place of a curve or a reference in words.
+fn place(editor: &Editor, id: Option<CurveId>, at: f64) -> String {
+    let reference = id.and_then(|id| editor.document().reference(id));
+    let short = |value: f64| figures::significant(value, 4);
+    match reference {
+        Some(reference) if reference.points().is_some() => format!("point {at}"),
+        Some(reference) => format!("t = {}", short(reference.curve.parameter(at))),
+        None => format!("u = {}", short(at)),
+    }
 }

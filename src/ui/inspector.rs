@@ -8,7 +8,7 @@ use lucide_icons::Icon;
 
 use super::curvature_rows::curvature_rows;
 use super::curve_item::Item;
-use super::distance_panel::distance_ui;
+use super::deviation_panel::deviation_ui;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
 use super::keyboard::{self, Typing};
@@ -109,7 +109,7 @@ impl Inspector {
             if let Some((curve, report)) = reference.zip(editor.sight().reference_report()) {
                 reference_panel::figures_ui(ui, &curve, &report, display);
             }
-            distance_ui(ui, editor);
+            deviation_ui(ui, editor);
         });
         document_section_ui(ui, editor, false);
         if curve.is_some() {

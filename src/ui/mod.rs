@@ -15,8 +15,8 @@ mod context_menu;
 mod curvature_rows;
 mod curve_item;
 mod curve_list;
+mod deviation_panel;
 mod dialogs;
-mod distance_panel;
 mod document_unit;
 mod draft;
 mod end_fit_panel;
@@ -76,6 +76,7 @@ mod unit_menu;
 mod vertex_columns;
 mod vertex_rows;
 mod vertex_table;
+mod whisker_fields;
 mod widgets;
 
 use std::path::{Path, PathBuf};

@@ -341,7 +341,10 @@ impl Brush<'_> {
                 self.disc(*at, HANDLE, fill, Stroke::new(2.0, tokens.accent));
             }
             Mark::Label(at, text) => self.text_beside(*at, text, others),
-            Mark::Whiskers(whiskers) => self.hairs(whiskers, tokens.target),
+            Mark::Whiskers { lines, beyond } => {
+                let colour = if *beyond { tokens.error } else { tokens.target };
+                self.hairs(lines, colour);
+            }
             Mark::Points {
                 kept,
                 left_out,

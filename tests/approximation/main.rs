@@ -5,6 +5,7 @@ mod common;
 
 mod airfoils;
 mod bounds;
+mod deviations;
 mod fits;
 mod fits_with_extrema;
 mod periodic;

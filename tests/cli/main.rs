@@ -3,6 +3,7 @@
 mod apply;
 mod batch;
 mod between;
+mod compare;
 mod edit;
 mod folder;
 mod inspect;

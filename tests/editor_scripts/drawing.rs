@@ -323,7 +323,7 @@ fn a_new_curve_is_compared_with_nothing() {
     script.key(Key::Enter);
     assert_ne!(script.curve(), arc);
     assert_eq!(script.editor.sight().compared(), None);
-    assert!(script.editor.sight().distance().is_none());
+    assert!(script.editor.sight().deviation().is_none());
     // The comparison belongs to the first curve.
     script.editor.activate(arc);
     assert_eq!(script.editor.sight().compared(), Some(other));

@@ -170,7 +170,7 @@ fn whiskers_go_from_the_curve_through_the_points_as_many_times_longer_as_the_sca
     let (points, polygon) = (parabola(), script.polygon());
     let marks = script.scene().marks.clone();
     let whiskers = marks.iter().find_map(|mark| match mark {
-        Mark::Whiskers(whiskers) => Some(whiskers.clone()),
+        Mark::Whiskers { lines, .. } => Some(lines.clone()),
         _ => None,
     });
     let whiskers = whiskers.expect("whiskers");
@@ -202,7 +202,11 @@ fn whiskers_go_from_the_curve_through_the_points_as_many_times_longer_as_the_sca
 
     script.editor.view_mut().whiskers.shown = false;
     let marks = &script.scene().marks;
-    assert!(!marks.iter().any(|mark| matches!(mark, Mark::Whiskers(_))));
+    assert!(
+        !marks
+            .iter()
+            .any(|mark| matches!(mark, Mark::Whiskers { .. }))
+    );
 }
 
 #[test]

@@ -321,7 +321,7 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
         change.apply(&mut script.editor).expect("a circle");
     }
     script.editor.refresh();
-    assert!(script.editor.sight().distance().is_none());
+    assert!(script.editor.sight().deviation().is_none());
     let arc = script.editor.document().ids().next().expect("the arc");
     let polygon = script
         .editor
@@ -338,41 +338,63 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
         script.editor.activate(active);
         script.command(Command::Compare(Some(compared)));
         script.editor.refresh();
-        let found = *script.editor.sight().distance().expect("a distance");
-        assert!((found.largest / largest - 1.0).abs() <= 1e-6, "{found:?}");
-        assert!(found.mean <= found.largest && found.mean > 0.999 * found.largest);
-        assert!((far(found.u) - found.largest).abs() <= ROUNDING);
-        let [from, to] = found.places;
-        assert!((from.distance(to) - found.largest).abs() <= ROUNDING);
+        let deviation = script
+            .editor
+            .sight()
+            .deviation()
+            .expect("a deviation")
+            .clone();
+        let sides = &deviation.sides;
+        let [own, other] = if active == arc { [0, 1] } else { [1, 0] };
+        let found = sides[own].as_ref().expect("the arc's side");
+        let most = found.largest.distance();
+        assert!((most / largest - 1.0).abs() <= 1e-6, "{found:?}");
+        assert!(found.mean <= most && found.mean > 0.999 * most);
+        assert!((far(found.largest.at) - most).abs() <= ROUNDING);
+        let [_, to] = found.largest.places;
         assert!((to.length() - 9.0).abs() <= ROUNDING);
+        // Seen from the whole circle, the far side of it counts.
+        let (side, found) = deviation.largest().expect("a distance");
+        assert_eq!(side, other);
+        assert!(found.distance() > 15.0, "{found:?}");
         let marks = script.scene().marks.clone();
-        let text = format!("distance {}", figure(found.largest));
+        let text = format!("distance {}", figure(found.distance()));
         assert!(
             marks
                 .iter()
                 .any(|mark| matches!(mark, Mark::Extreme { text: own, .. } if *own == text))
         );
     }
+    // Whiskers beyond a limit are marked apart.
+    let whiskers = |script: &mut Script, limit: Option<f64>| {
+        script.editor.view_mut().whiskers.limit = limit;
+        script.editor.refresh();
+        let marks = script.scene().marks.clone();
+        let of = |mark: &Mark| match mark {
+            Mark::Whiskers { lines, beyond } => Some((lines.len(), *beyond)),
+            _ => None,
+        };
+        marks.iter().filter_map(of).collect::<Vec<_>>()
+    };
+    assert_eq!(whiskers(&mut script, None), [(202, false), (0, true)]);
+    let [(within, _), (beyond, _)] = whiskers(&mut script, Some(1.0))[..] else {
+        panic!("whiskers within and beyond the limit");
+    };
+    assert!(within > 100 && beyond > 50, "{within} {beyond}");
     // It follows a drag, and is not marked where one of both is hidden.
     script.editor.activate(arc);
     script.command(Command::Compare(Some(circle)));
     script.drag_vertex(3, DVec2::new(0.0, -30.0));
     script.editor.refresh();
-    assert!(
-        script
-            .editor
-            .sight()
-            .distance()
-            .expect("a distance")
-            .largest
-            > largest
-    );
+    let dragged = script.editor.sight().deviation().expect("a deviation");
+    let from_arc = dragged.sides[0].as_ref().expect("the arc's side");
+    assert!(from_arc.largest.distance() > largest);
     script.command(Command::ToggleVisible);
     let is_mark = |mark: &Mark| matches!(mark, Mark::Extreme { .. });
     assert!(!script.scene().marks.iter().any(is_mark));
     script.command(Command::Compare(None));
     script.editor.refresh();
-    assert!(script.editor.sight().distance().is_none());
+    assert!(script.editor.sight().deviation().is_none());
 }
 
 #[test]
@@ -390,7 +412,10 @@ fn a_list_of_points_is_measured_point_by_point() {
         .expect("a list of points");
     script.command(Command::Compare(Some(arc)));
     script.editor.refresh();
-    let found = *script.editor.sight().distance().expect("a distance");
+    let found = script.editor.sight().deviation().expect("a deviation");
+    let [Some(found), None] = &found.sides else {
+        panic!("points count from their side alone: {found:?}");
+    };
     // What is pasted stands aside: the points are measured where they are.
     let (_, list) = script
         .editor
@@ -408,10 +433,11 @@ fn a_list_of_points_is_measured_point_by_point() {
     let distances: Vec<f64> = points.iter().map(|point| nearest(*point)).collect();
     let largest = distances.iter().copied().fold(0.0, f64::max);
     let mean = distances.iter().sum::<f64>() / 3.0;
-    assert!((found.largest / largest - 1.0).abs() <= 1e-6, "{found:?}");
+    let most = &found.largest;
+    assert!((most.distance() / largest - 1.0).abs() <= 1e-6, "{found:?}");
     assert!((found.mean / mean - 1.0).abs() <= 1e-6, "{found:?}");
-    assert_eq!(distances[found.t as usize], largest);
-    assert_eq!(found.places[1], points[found.t as usize]);
+    assert_eq!(distances[most.at as usize], largest);
+    assert_eq!(most.places[0], points[most.at as usize]);
 }
 
 #[test]

@@ -1,33 +1,31 @@
-//! The distance between the active curve and the item it is compared with.
+//! The deviation between the active curve or reference and the one that it is compared with.
 
 use std::sync::Arc;
 
 use super::Client;
 use super::patience::Patience;
-use crate::analysis::{Distance, Item};
-use crate::document::{Curve, CurveId};
+use crate::analysis::{Deviation, Item};
+use crate::document::CurveId;
 
-/// Measure distances beside the frame, of one pair at a time.
+/// Measure deviations beside the frame, of one pair at a time.
 #[derive(Debug, Default)]
 pub struct Comparing {
-    client: Client<Pair, Distance>,
-    /// The last distance of the same two items: while one of them is changed it stays until the next.
-    shown: Option<Distance>,
+    client: Client<Pair, Arc<Deviation>>,
+    /// The last deviation of the same two items: while one of them is changed it stays until the next.
+    shown: Option<Arc<Deviation>>,
 }
 
-/// A curve and the curve or reference it is measured against.
-#[derive(Clone, Debug)]
+/// Two curves or references that are measured against each other.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
     /// The two items.
     pub ids: [CurveId; 2],
-    /// The state of the first item.
-    pub curve: Arc<Curve>,
-    /// The state of the second item.
-    pub other: Item,
+    /// Their states.
+    pub items: [Item; 2],
 }
 
 impl Comparing {
-    /// Measure on a thread, which calls `wake` when a distance is measured.
+    /// Measure on a thread, which calls `wake` when a deviation is measured.
     pub fn background(wake: impl Fn() + Send + 'static) -> Self {
         Self {
             client: Client::background("distances", wake),
@@ -42,22 +40,19 @@ impl Comparing {
             self.shown = None;
         }
         self.client.advance(pair, Some(patience), |pair| {
-            move |progress: &_| Distance::measure(&pair.curve.polygon, &pair.other, progress)
+            move |progress: &_| {
+                let deviation = Deviation::measure(pair.items.each_ref(), progress).ok()?;
+                deviation.map(Arc::new)
+            }
         });
         if self.client.progress().is_none() {
-            self.shown = self.client.result().copied();
+            self.shown = self.client.result().cloned();
         }
     }
 
-    /// The distance of the pair; `None` until it is measured, and if it cannot be.
-    pub fn distance(&self) -> Option<&Distance> {
-        self.shown.as_ref()
-    }
-}
-
-impl PartialEq for Pair {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.curve, &other.curve) && self.other == other.other
+    /// The deviation of the pair; `None` until it is measured, and if it cannot be.
+    pub fn deviation(&self) -> Option<&Deviation> {
+        self.shown.as_deref()
     }
 }
 
@@ -67,7 +62,7 @@ mod tests {
     use std::time::Duration;
 
     use super::*;
-    use crate::document::Document;
+    use crate::document::{Curve, Document};
     use crate::geometry::FloatPolygon;
 
     /// Longer than any job here takes.
@@ -83,17 +78,19 @@ mod tests {
     fn pair(ids: [CurveId; 2], offset: f64) -> Pair {
         Pair {
             ids,
-            curve: line(0.0),
-            other: Item::Curve(line(offset)),
+            items: [0.0, offset].map(|offset| Item::Curve(line(offset))),
         }
     }
 
     fn largest(comparing: &Comparing) -> Option<f64> {
-        comparing.distance().map(|distance| distance.largest)
+        comparing
+            .deviation()?
+            .largest()
+            .map(|(_, it)| it.distance())
     }
 
     #[test]
-    fn a_distance_is_shown_of_its_own_pair_only() {
+    fn a_deviation_is_shown_of_its_own_pair_only() {
         let ids: Vec<CurveId> = Document::default().next_ids().take(3).collect();
         let [one, two] = [[ids[0], ids[1]], [ids[0], ids[2]]];
         let (sender, woken) = channel();
@@ -118,11 +115,7 @@ mod tests {
         assert_eq!(largest(&comparing), Some(1.0), "the last state of the pair");
         let other = pair(two, 4.0);
         comparing.advance(Some(other.clone()), &mut hasty);
-        assert_eq!(
-            largest(&comparing),
-            None,
-            "not the distance of another pair"
-        );
+        assert_eq!(largest(&comparing), None, "not that of another pair");
         lets_go.send(()).expect("the job is held");
         while comparing.client.progress().is_some() {
             woken.recv_timeout(LONG).expect("the frame is woken");
@@ -132,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_leaves_no_distance_of_an_earlier_state() {
+    fn a_panic_leaves_no_deviation_of_an_earlier_state() {
         let ids: Vec<CurveId> = Document::default().next_ids().take(2).collect();
         let mut comparing = Comparing::default();
         let mut patience = Patience::default();

@@ -92,9 +92,13 @@ impl OperationInProgress {
             let scale = self.whisker_scale(whiskers);
             let all = points.iter().zip(&self.points.nearest).enumerate();
             let kept = all.filter(|(index, _)| !self.points.leaves_out(*index));
-            let lines = kept
-                .map(|(_, (point, nearest))| Whiskers::whisker(*point, nearest, scale).map(seen));
-            marks.push(Mark::Whiskers(lines.collect()));
+            let lines = kept.map(|(_, (point, nearest))| {
+                Whiskers::whisker([*point, nearest.point], scale).map(seen)
+            });
+            marks.push(Mark::Whiskers {
+                lines: lines.collect(),
+                beyond: false,
+            });
         }
         let of_kind = |left_out: bool| {
             let all = points.iter().enumerate();

@@ -1,31 +1,26 @@
-//! The distance between the active curve and what it is compared with: for panels, and marked on the canvas.
+//! The deviation of the active curve from what it is compared with: for panels, and marked on the canvas.
 
-use crate::analysis::{Distance, Item};
+use glam::DVec3;
+
+use crate::analysis::{Deviation, Item};
 use crate::document::CurveId;
 use crate::editor::jobs::comparing::Pair;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::view::View;
+use crate::editor::view::whiskers::Whiskers;
 use crate::geometry::figure;
 
 impl View {
-    /// The curve and what it is compared with, if there is something to compare.
+    /// The active curve or reference and what it is compared with, if there is something to compare.
     pub(super) fn compared_pair(&self, shown: Shown<'_>) -> Option<Pair> {
         let (active, compared) = (shown.active()?, self.compared(shown.active()?)?);
-        let document = shown.document();
-        if active == compared {
-            return None;
-        }
-        // The active one is the curve that is measured, unless it is a reference.
-        let (curve, other) = match document.curve(active) {
-            Some(curve) => (curve, compared),
-            None => (document.curve(compared)?, active),
-        };
-        Some(Pair {
-            ids: [active, compared],
-            curve: curve.clone(),
-            other: Item::of(document, other)?,
+        let ids = [active, compared];
+        let [first, second] = ids.map(|id| Item::of(shown.document(), id));
+        (active != compared).then_some(Pair {
+            ids,
+            items: [first?, second?],
         })
     }
 }
@@ -36,30 +31,56 @@ impl<'a> Sight<'a> {
         self.view.compared(self.active()?)
     }
 
-    /// How far the active curve is from what it is compared with, or a curve from the active reference that
-    /// it is compared with; `None` until it is measured, and between two references. While a curve is changed
-    /// it is that of the last state that was measured.
-    pub fn distance(self) -> Option<&'a Distance> {
-        self.view.comparing.distance()
+    /// The deviation of the active curve or reference from what it is compared with; `None` until it is measured, and
+    /// between two lists of points. While one of them is changed it is that of the last state that was measured.
+    pub fn deviation(self) -> Option<&'a Deviation> {
+        self.view.comparing.deviation()
     }
 
-    /// Mark on the canvas where the largest distance is.
-    pub(super) fn distance_marks(self) -> Vec<Mark> {
+    /// The scale at which the whiskers of the deviation are drawn.
+    pub fn deviation_scale(self) -> f64 {
+        let Some(deviation) = self.deviation() else {
+            return 1.0;
+        };
+        let largest = deviation.largest().map_or(0.0, |(_, it)| it.distance());
+        let places: Vec<DVec3> = deviation.whiskers().map(|it| it.places[0]).collect();
+        self.view.whiskers.scale_for(&places, largest)
+    }
+
+    /// Mark the distances on the canvas, and where the largest is.
+    pub(super) fn deviation_marks(self) -> Vec<Mark> {
         let is_visible = |id| self.document().is_visible(id);
         let both = [self.active(), self.compared()];
-        let Some(distance) = self
-            .distance()
+        let Some(deviation) = self
+            .deviation()
             .filter(|_| both.into_iter().all(|id| id.is_some_and(is_visible)))
         else {
             return Vec::new();
         };
-        let [from, to] = distance.places.map(|place| self.viewport().flatten(place));
-        vec![
-            Mark::Ruler([from, to]),
-            Mark::Extreme {
+        let seen = |point: DVec3| self.viewport().flatten(point);
+        let mut marks = Vec::new();
+        let settings = &self.view.whiskers;
+        if settings.shown {
+            let scale = self.deviation_scale();
+            let limit = settings.limit.unwrap_or(f64::INFINITY);
+            for beyond in [false, true] {
+                let own = deviation.whiskers();
+                let own = own.filter(|it| (it.distance() > limit) == beyond);
+                let lines = own.map(|it| Whiskers::whisker(it.places, scale).map(seen));
+                marks.push(Mark::Whiskers {
+                    lines: lines.collect(),
+                    beyond,
+                });
+            }
+        }
+        if let Some((_, largest)) = deviation.largest() {
+            let [from, to] = largest.places.map(seen);
+            marks.push(Mark::Ruler([from, to]));
+            marks.push(Mark::Extreme {
                 at: from,
-                text: format!("distance {}", figure(distance.largest)),
-            },
-        ]
+                text: format!("distance {}", figure(largest.distance())),
+            });
+        }
+        marks
     }
 }

@@ -50,7 +50,7 @@ impl View {
         scene.marks = std::mem::take(&mut overlay.marks);
         scene.marks.extend(sight.flow_marks());
         if !overlay.measures_points {
-            scene.marks.extend(sight.distance_marks());
+            scene.marks.extend(sight.deviation_marks());
         }
         sight.draw_guides(&mut scene.guides);
         scene.hover = sight.hover(overlay);

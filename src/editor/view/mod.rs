@@ -6,7 +6,7 @@ pub(in crate::editor) mod comb;
 pub(in crate::editor) mod curvature_display;
 mod curve_outlines;
 mod density;
-mod distances;
+mod deviations;
 mod drawing;
 pub(in crate::editor) mod end_marks;
 mod evolute;

@@ -203,8 +203,13 @@ pub enum Mark {
     },
     /// A short text at a place.
     Label(DVec2, String),
-    /// The distances of points from a curve, from the curve on.
-    Whiskers(Vec<[DVec2; 2]>),
+    /// Distances from a curve, from the curve on.
+    Whiskers {
+        /// From the curve to the tips.
+        lines: Vec<[DVec2; 2]>,
+        /// Whether they are longer than allowed.
+        beyond: bool,
+    },
     /// Points that are fitted.
     Points {
         /// Those that count.

@@ -1,10 +1,8 @@
-//! How the distances of points from a curve are drawn: whiskers that stand on the curve.
+//! How distances from a curve are drawn: whiskers that stand on the curve.
 
 use std::ops::RangeInclusive;
 
 use glam::DVec3;
-
-use crate::geometry::Nearest;
 
 /// The share of the size of the points that the longest whisker has at most, without a scale of the user's own.
 const LONGEST: f64 = 0.05;
@@ -16,6 +14,8 @@ pub struct Whiskers {
     pub shown: bool,
     /// How many times they are longer than the distances; `None` for a round number that suits the distances.
     pub scale: Option<f64>,
+    /// The distance between two curves beyond which they are marked and counted.
+    pub limit: Option<f64>,
 }
 
 impl Whiskers {
@@ -37,11 +37,8 @@ impl Whiskers {
     }
 
     /// The whisker of a point with its nearest place: from that place through the point.
-    pub fn whisker(point: DVec3, nearest: &Nearest, scale: f64) -> [DVec3; 2] {
-        [
-            nearest.point,
-            nearest.point + scale * (point - nearest.point),
-        ]
+    pub fn whisker([point, nearest]: [DVec3; 2], scale: f64) -> [DVec3; 2] {
+        [nearest, nearest + scale * (point - nearest)]
     }
 }
 
@@ -50,6 +47,7 @@ impl Default for Whiskers {
         Self {
             shown: true,
             scale: None,
+            limit: None,
         }
     }
 }

@@ -4,8 +4,10 @@ mod bound;
 mod deviation;
 mod error;
 mod places;
+mod side;
 mod target;
 
 pub use deviation::MeasuredDeviation;
 pub use error::DistanceError;
 pub(in crate::geometry) use places::places;
+pub use side::{CurveSide, SideDeviation, Whisker};

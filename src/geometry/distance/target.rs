@@ -69,6 +69,12 @@ impl<'a> Target<'a> {
         })
     }
 
+    /// The diagonal of the box of its samples.
+    pub(super) fn size(&self) -> f64 {
+        let whole = self.levels.last().and_then(|level| level.first());
+        whole.map_or(0.0, |it| it.low.distance(it.high))
+    }
+
     /// The distance of a point from the curve, and the parameter of the nearest point there; `near` is a
     /// parameter in its neighbourhood.
     pub(super) fn nearest(&self, point: DVec3, near: f64) -> (f64, f64) {
@@ -92,15 +98,15 @@ impl<'a> Target<'a> {
                 continue;
             }
             let first = BLOCK * index;
-            let samples = first..=(first + BLOCK).min(last);
-            let distances = samples.map(|index| (self.samples[index].1.distance(point), index));
-            let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((distance, index)) = nearest
-                && distance - around.margin < best.0
-            {
-                let refined = self.refined(point, index);
-                if refined.0 < best.0 {
-                    best = refined;
+            for index in first..=(first + BLOCK).min(last) {
+                let distance = |index: usize| self.samples[index].1.distance(point);
+                let beside = [index.saturating_sub(1), (index + 1).min(last)];
+                let here = distance(index);
+                if here - around.margin < best.0 && beside.iter().all(|it| here <= distance(*it)) {
+                    let refined = self.refined(point, index);
+                    if refined.0 < best.0 {
+                        best = refined;
+                    }
                 }
             }
         }
