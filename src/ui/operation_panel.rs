@@ -147,6 +147,10 @@ impl OperationPanel {
                 let refused = self.fields.refusal.as_ref();
                 let refused = refused.filter(|refused| refused.parameter.is_none());
                 let refused = refused.map(|refused| refused.text.clone());
+                if in_progress.is_waiting_to_apply() {
+                    widgets::note(ui, "Applies when ready; Cancel ends it");
+                    return;
+                }
                 if in_progress.is_pending() {
                     ui.multiply_opacity(OUTDATED);
                 }
@@ -222,6 +226,7 @@ fn buttons_ui(
         }
         Some(Err(_)) => (false, true),
     };
+    let enabled = enabled && !in_progress.is_waiting_to_apply();
     ui.horizontal_centered(|ui| {
         if !in_progress.is_applied() {
             let apply = ui.add_enabled_ui(enabled, |ui| match reached {

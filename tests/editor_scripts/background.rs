@@ -4,12 +4,13 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use batten::document::{Curve, Document, Edit};
-use batten::editor::{Command, Editor, FeatureKind, Look};
+use batten::editor::{Command, Editor, FeatureKind, Key, Look, OperationInProgress};
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::Features;
+use batten::operations::Value;
 use glam::{DVec2, DVec3};
 
-use super::script::Script;
+use super::script::{Script, operation};
 
 /// Longer than any proof here takes: whoever waits so long has failed.
 const LONG: Duration = Duration::from_secs(60);
@@ -108,4 +109,43 @@ fn nothing_flickers_while_a_small_curve_is_dragged() {
         assert!(!scene.curves[0].features.is_empty());
     }
     assert!(woken.try_recv().is_err(), "no frame is made for it");
+}
+
+#[test]
+fn apply_during_a_run_waits_and_says_so_and_can_be_cancelled() {
+    let mut script = long();
+    let woken = prove_in_background(&mut script, Duration::ZERO);
+    let waits = |editor: &Editor| {
+        let operation = editor.operation();
+        operation.is_some_and(OperationInProgress::is_waiting_to_apply)
+    };
+    let begin = |editor: &mut Editor| {
+        let begun = editor.preview_operation(operation("elevate-degree"));
+        begun.expect("a preview");
+        editor.operating().apply().expect("nothing is refused");
+        assert!(waits(editor));
+    };
+    begin(&mut script.editor);
+    assert_eq!(script.message(), "Applies when ready; Esc cancels");
+    script.key(Key::Escape);
+    assert!(script.editor.operation().is_none());
+    assert_eq!(script.steps(), 0);
+
+    begin(&mut script.editor);
+    // The result of other values is to be seen first.
+    let other = [("degree", Value::Whole(6))];
+    let set = script.editor.operating().set_values(&other);
+    set.expect("a degree");
+    assert!(!waits(&script.editor));
+    script
+        .editor
+        .operating()
+        .apply()
+        .expect("nothing is refused");
+    while waits(&script.editor) {
+        woken.recv_timeout(LONG).expect("the frame is woken");
+        script.editor.begin_frame();
+    }
+    assert_eq!(script.steps(), 1);
+    assert_eq!(script.polygon().degree(), 6);
 }

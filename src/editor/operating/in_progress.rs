@@ -114,6 +114,11 @@ impl OperationInProgress {
         self.pending
     }
 
+    /// Whether Apply was asked for before the run is finished.
+    pub fn is_waiting_to_apply(&self) -> bool {
+        self.pending && self.applies
+    }
+
     /// Whether the run can be stopped with the best found so far.
     pub fn can_be_stopped(&self) -> bool {
         self.pending && !self.stops && self.operation.can_be_stopped()

@@ -123,7 +123,12 @@ impl Operating<'_> {
             return Ok(Note::silent());
         }
         self.let_go();
-        let reply = self.settle();
+        let settled = self.settle();
+        let waits = self.previewed().is_some_and(|it| it.is_waiting_to_apply());
+        let reply = match waits {
+            true => Ok(Note::told("Applies when ready; Esc cancels")),
+            false => settled,
+        };
         *self.message = Message::of(&reply);
         reply
     }
@@ -365,6 +370,8 @@ impl Operating<'_> {
         };
         current.pending = true;
         current.stops = false;
+        // What was to be applied was the result of other values.
+        current.applies = false;
         current.update_points();
         let operation = current.operation;
         let (input, values) = (current.input.clone(), current.values.clone());
