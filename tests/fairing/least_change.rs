@@ -3,6 +3,7 @@
 use batten::geometry::fairing::least_change::{
     Dragged, LeastChangeError, Reach, least_change, magnification,
 };
+use batten::geometry::features::Features;
 use batten::geometry::{ClampedPolygon, End, FloatPolygon};
 use glam::DVec3;
 
@@ -177,6 +178,40 @@ fn vertices_out_of_reach_locked_ones_and_ends_stay() {
             check_ends(&polygon, &after);
         }
     }
+}
+
+#[test]
+fn features_out_of_reach_stay_to_the_bit() {
+    let mut random = Random(9);
+    let mut told = [0; 2];
+    for trial in 0..60 {
+        let (degree, count, span) = (5, 25 + below(&mut random, 36), 5);
+        let wave = random.between(0.3, 0.8);
+        let vertices = (0..count).map(|index| {
+            let x = index as f64;
+            DVec3::new(x, 3.0 * (wave * x).sin(), 0.0) + random.vector(0.05, false)
+        });
+        let vertices: Vec<DVec3> = vertices.collect();
+        let polygon = FloatPolygon::new(degree, vertices, None, false).expect("a polygon");
+        let vertex = below(&mut random, count);
+        let by = random.vector(0.03 * polygon.size(), false);
+        let what = Dragged::Vertices(vec![(vertex, polygon.vertex(vertex) + by)]);
+        let after = least_change(&polygon, &what, &reach(span, &[])).expect("a change");
+        // A vertex acts on n + 1 segments.
+        let begin = vertex.saturating_sub(span + degree) as f64;
+        let end = (vertex + span + 1) as f64;
+        let outside = |polygon: &FloatPolygon| {
+            let features = Features::new(polygon);
+            let all = features.curvature_extrema.into_iter();
+            let far = all.filter(|it| it.u[1] < begin || it.u[0] > end);
+            far.map(|it| it.u).collect::<Vec<_>>()
+        };
+        let [before, now] = [&polygon, &after].map(outside);
+        assert_eq!(before, now, "trial {trial}: vertex {vertex} of {count}");
+        told[0] += before.len();
+        told[1] += 1;
+    }
+    assert!(told[0] > 5 * told[1], "extrema far away: {told:?}");
 }
 
 #[test]
