@@ -24,12 +24,14 @@ use crate::geometry::approximation::merging::{Joint, MergeError, Merged, Track, 
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::{BezierPolygon, Continuity, End, FloatPolygon, Progress, significant};
+use crate::geometry::{
+    BezierPolygon, Continuity, End, FloatPolygon, Progress, rounded_up, significant,
+};
 
 const METHOD: Parameter = Parameter {
     name: "method",
     label: "Method",
-    help: "Automatic: merge ends that meet smoothly, chain at a corner, bridge a gap",
+    help: "Automatic: merge ends that meet within the tolerance, chain at a corner, bridge a gap",
     kind: Kind::Choice {
         options: &[
             Choice::new("automatic", "Automatic"),
@@ -232,7 +234,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         progress,
     };
     match method(values) {
-        Some(Method::Merge) => joining.merged(joining.tolerance),
+        Some(Method::Merge) => joining.merged(joining.tolerance).map(|(merged, _)| merged),
         Some(Method::Bridge) => joining.bridge().map(|(outcome, _)| outcome),
         Some(Method::Chain) => joining.chained(),
         None => joining.best(),
@@ -253,49 +255,61 @@ struct Joining<'a> {
 }
 
 impl Joining<'_> {
-    /// Merge curves that meet smoothly, chain those that meet at a corner, bridge a gap.
+    /// Merge curves that meet if the tolerance allows it, chain those that meet at a corner, bridge a gap.
     ///
     /// Where the gap is too short for a bridge between the segments as they are, a merged curve closes it, if there is
     /// one, or else a bridge between finer segments, or a chain.
     fn best(&self) -> Result<Outcome, OperationError> {
         let second = self.second();
         let [left, right] = self.in_order(&self.parts[0].1.polygon, &second);
-        let gap = match Joint::between(left, right).check(self.tolerance) {
-            Ok(()) => {
-                let merged = self.merged(self.tolerance);
-                let why = match &merged {
-                    Err(OperationError::Merge(MergeError::OutOfReach { tolerance })) => {
-                        let tolerance = significant(*tolerance, 3);
-                        format!("No merged curve is within {tolerance} of both")
-                    }
-                    Err(OperationError::LockedInMerge { name }) => {
-                        format!("“{name}” has locked vertices and cannot be merged")
-                    }
-                    _ => return merged,
-                };
-                let mut chained = self.chained()?;
-                chained.remarks.push(format!("{why}: chained"));
-                return Ok(chained);
-            }
-            Err(MergeError::Apart { distance, .. }) => distance,
-            Err(_) => return self.chained(),
-        };
+        let joint = Joint::between(left, right);
+        if joint.meets(self.tolerance) {
+            return match joint.check(self.size) {
+                Ok(()) => self.merged_or_chained(),
+                Err(_) => self.chained(),
+            };
+        }
+        let gap = joint.distance;
         let (bridged, fits) = self.bridge()?;
         if fits || gap > SMALL * self.size {
             return Ok(bridged);
         }
         // A hair more, so that rounding does not leave the ends apart.
-        match self.merged(gap * (1.0 + MET)) {
-            Ok(mut merged) => {
+        let tolerance = self.tolerance.max(gap * (1.0 + MET));
+        match self.merged(tolerance) {
+            Ok((mut merged, possible)) if possible <= tolerance => {
                 merged.remarks.push(
                     "Merged within the gap, which is short; Bridge keeps both curves".to_owned(),
                 );
                 Ok(merged)
             }
             Err(OperationError::Cancelled) => Err(OperationError::Cancelled),
-            Err(_) if bridged.requirements.is_empty() => Ok(bridged),
+            _ if bridged.requirements.is_empty() => Ok(bridged),
+            Ok((_, possible)) => self.chained_because(&nearest_merge(tolerance, possible)),
             Err(_) => self.chained(),
         }
+    }
+
+    /// Merge within the tolerance, or chain and say why.
+    fn merged_or_chained(&self) -> Result<Outcome, OperationError> {
+        let why = match self.merged(self.tolerance) {
+            Ok((merged, possible)) if possible <= self.tolerance => return Ok(merged),
+            Ok((_, possible)) => nearest_merge(self.tolerance, possible),
+            Err(OperationError::LockedInMerge { name }) => {
+                format!("“{name}” has locked vertices and cannot be merged")
+            }
+            Err(OperationError::Merge(MergeError::NotFound)) => {
+                "No merged curve was found".to_owned()
+            }
+            Err(error) => return Err(error),
+        };
+        self.chained_because(&why)
+    }
+
+    fn chained_because(&self, why: &str) -> Result<Outcome, OperationError> {
+        let mut chained = self.chained()?;
+        chained.remarks.push(format!("{why}: chained"));
+        Ok(chained)
     }
 
     /// The second curve in the direction of the composite.
@@ -319,7 +333,8 @@ impl Joining<'_> {
         }
     }
 
-    fn merged(&self, tolerance: f64) -> Result<Outcome, OperationError> {
+    /// One curve of both, and how far it is from them: not reached if that is more than the tolerance.
+    fn merged(&self, tolerance: f64) -> Result<(Outcome, f64), OperationError> {
         let [(_, first), (_, second)] = self.parts;
         for curve in [first, second] {
             if curve.locked_vertices.iter().next().is_some() {
@@ -338,9 +353,7 @@ impl Joining<'_> {
             bounded,
             extrema,
         } = found.map_err(|error| match error {
-            MergeError::Cancelled if progress.is_late() => {
-                MergeError::OutOfReach { tolerance }.into()
-            }
+            MergeError::Cancelled if progress.is_late() => MergeError::NotFound.into(),
             MergeError::Cancelled => OperationError::Cancelled,
             error => error.into(),
         })?;
@@ -375,12 +388,18 @@ impl Joining<'_> {
                 .remarks
                 .push("The merged curve has no weights".to_owned());
         }
+        if deviation > tolerance {
+            let possible = rounded_up(deviation);
+            outcome
+                .remarks
+                .push(format!("A merge within {possible} is possible"));
+        }
         let at = tracks[0].at(left.segments() as f64);
         outcome
             .annotations
             .push(Annotation::Point(polygon.point(at)));
         outcome.joint = Some([at; 2]);
-        Ok(outcome)
+        Ok((outcome, deviation))
     }
 
     /// Join by a bridge, which is not reached if it goes a long way round; says whether the parts fit it as they are.
@@ -525,6 +544,12 @@ impl Joining<'_> {
         outcome.remarks.extend(dropped);
         Ok(())
     }
+}
+
+/// Say which tolerance a merge misses, and which one is possible.
+fn nearest_merge(tolerance: f64, possible: f64) -> String {
+    let (tolerance, possible) = (significant(tolerance, 3), rounded_up(possible));
+    format!("No merged curve is within {tolerance} of both, one within {possible} is possible")
 }
 
 /// The ends that are joined: those that are given, and of the others those that lie closest. Of pairs as

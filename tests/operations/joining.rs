@@ -3,9 +3,9 @@
 use batten::document::{Curve, Document, Edit, EndMatch, LockedVertices, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::features::{Feature, Features};
-use batten::geometry::{Continuity, End, FloatPolygon, Progress};
+use batten::geometry::{Continuity, End, FloatPolygon, Progress, curve_crossing};
 use batten::operations::{Operands, Outcome, Report, Value};
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use serde_json::{Value as Json, json};
 
 use crate::common::Random;
@@ -542,6 +542,67 @@ fn a_corner_is_chained_and_not_merged() {
         refused.contains("corner of 63.4°") && refused.contains("Chain"),
         "{refused}"
     );
+}
+
+/// A curve turned about its start and moved, both in the plane.
+fn placed(curve: &Curve, angle: f64, by: DVec3) -> Curve {
+    let from = curve.polygon.point(0.0);
+    let turned = DQuat::from_rotation_z(angle);
+    let moves = curve.polygon.vertices().iter().enumerate();
+    let moves = moves.map(|(index, vertex)| (index, from + turned * (*vertex - from) + by));
+    let moves: Vec<(usize, DVec3)> = moves.collect();
+    let mut polygon = curve.polygon.clone();
+    polygon.move_vertices(moves).expect("in range");
+    Curve::new("second", polygon)
+}
+
+#[test]
+fn a_small_corner_and_a_gap_are_merged_within_the_tolerance_that_is_told() {
+    let mut random = Random(11);
+    // A corner in degrees, and the second curve's move along and across, in shares of the size.
+    let places = [
+        (4.6, 0.01, 0.008),
+        (-3.0, 0.0, 0.0),
+        (8.0, -0.012, 0.004),
+        (-12.0, 0.002, -0.01),
+    ];
+    for (degrees, along, across) in places {
+        let [first, second] = cut_arc(&mut random, 4, Continuity::G3);
+        let size = first.polygon.size().max(second.polygon.size());
+        let ahead = first.polygon.end_jet(End::Finish).tangent().expect("one");
+        let by = size * (along * ahead + across * DVec3::Z.cross(ahead));
+        let second = placed(&second, f64::to_radians(degrees), by);
+        let parts = [first.polygon.clone(), second.polygon.clone()];
+        let document = Document::from_curves([first, second]);
+        let ends = [
+            ("method", Value::Choice(1)),
+            ("first-end", Value::Choice(2)),
+            ("second-end", Value::Choice(1)),
+        ];
+        let (missed, _, report) = join(&document, &ends);
+        let told = format!("{degrees}°: {}", report.text());
+        assert!(!missed.reached, "{told}");
+        let mut remarks = report.remarks.iter();
+        let possible = remarks.find_map(|it| {
+            let number = it.strip_prefix("A merge within ")?;
+            number.strip_suffix(" is possible")?.parse::<f64>().ok()
+        });
+        let possible = possible.unwrap_or_else(|| panic!("{told}"));
+        assert!(possible <= 0.03 * size, "{told}");
+
+        let within = [&ends[..], &[("tolerance", Value::List(vec![possible]))]].concat();
+        let (merged, after, report) = join(&document, &within);
+        let told = format!("{degrees}°: {}", report.text());
+        assert!(merged.reached, "{told}");
+        let polygon = &only(&after).polygon;
+        let off = farthest(parts.each_ref(), polygon);
+        assert!(off <= possible, "{told}: {off} of {possible}");
+        let extrema =
+            |polygon: &FloatPolygon| Features::new(polygon).count(Feature::CurvatureExtremum);
+        let own: usize = parts.iter().map(extrema).sum();
+        assert!(extrema(polygon) <= own + 2, "{told}");
+        assert_eq!(curve_crossing(polygon), None, "{told}");
+    }
 }
 
 #[test]

@@ -1,7 +1,9 @@
-//! Two curves that meet, made one float polygon within a tolerance.
+//! Two curves that meet, but for a small corner and gap, made one float polygon within a tolerance.
 //!
 //! The engines that fit points with a wished number of curvature extrema fit both curves at once: the result has
-//! those of both, and at most two more at the joint.
+//! those of both, and at most two more at the joint. A corner and a gap are spread over as much of both curves as the
+//! tolerance allows, because few extrema come first. Where the tolerance is missed, the nearest curve tells which one
+//! is possible.
 
 use std::f64::consts::PI;
 
@@ -23,6 +25,13 @@ use crate::geometry::wording::significant;
 
 /// The largest angle between the tangents of curves that meet without a corner, in radians: 0.1°.
 pub const SMOOTH: f64 = 0.1 * PI / 180.0;
+
+/// The largest angle between the tangents of curves that are merged, in radians: 15°. Above it one curve with few
+/// extrema leaves both by more than a designer takes for the same shape.
+const BENT: f64 = 15.0 * PI / 180.0;
+
+/// The largest gap between curves that are merged, by the size of the larger one.
+const GAP: f64 = 0.05;
 
 /// The samples of a segment that the merged curve is near to.
 const SAMPLES: usize = 6;
@@ -80,18 +89,17 @@ pub struct Track {
 /// Why two curves are not merged.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum MergeError {
-    /// The ends do not meet.
+    /// The ends are too far apart.
     #[error(
-        "the ends are {} apart, and the tolerance is {}: allow {} or more, or bridge the gap",
+        "the ends are {} apart, and at most {} is merged: bridge the gap",
         significant(*.distance, 3),
-        significant(*.tolerance, 3),
-        significant(1.01 * *.distance, 3)
+        significant(*.most, 3)
     )]
     Apart {
         /// Their distance.
         distance: f64,
-        /// The tolerance.
-        tolerance: f64,
+        /// The largest gap that is merged.
+        most: f64,
     },
     /// The ends meet at a corner.
     #[error(
@@ -102,15 +110,9 @@ pub enum MergeError {
         /// The angle between the tangents, in radians.
         angle: f64,
     },
-    /// No curve was found within the tolerance.
-    #[error(
-        "no curve with up to {ADDED} curvature extrema more keeps the tolerance: allow more than {}, or choose Chain",
-        significant(*.tolerance, 3)
-    )]
-    OutOfReach {
-        /// The tolerance.
-        tolerance: f64,
-    },
+    /// No curve was found.
+    #[error("no curve with up to {ADDED} curvature extrema more than both was found: choose Chain")]
+    NotFound,
     /// The computation was ended early.
     #[error("merging was cancelled")]
     Cancelled,
@@ -139,28 +141,33 @@ impl Joint {
         }
     }
 
-    /// Check that the ends meet within a tolerance and without a corner.
+    /// Whether the ends meet within a tolerance.
+    pub fn meets(self, tolerance: f64) -> bool {
+        self.distance <= tolerance
+    }
+
+    /// Check that corner and gap are small enough for one curve: the gap by the size of the larger curve.
     ///
     /// # Errors
     /// [`MergeError::Apart`], [`MergeError::Corner`].
-    pub fn check(self, tolerance: f64) -> Result<(), MergeError> {
+    pub fn check(self, size: f64) -> Result<(), MergeError> {
         let Self { distance, angle } = self;
-        if distance > tolerance {
-            return Err(MergeError::Apart {
-                distance,
-                tolerance,
-            });
+        let most = GAP * size;
+        if distance > most {
+            return Err(MergeError::Apart { distance, most });
         }
-        match angle <= SMOOTH {
+        match angle <= BENT {
             true => Ok(()),
             false => Err(MergeError::Corner { angle }),
         }
     }
 }
 
-/// Make one curve of an open one and another that goes on from its end, within a tolerance and without weights; where
+/// Make one curve of an open one and another that goes on near its end, within a tolerance and without weights; where
 /// the second goes on with the vertices of the first, it is exact and keeps them. Both outer ends
 /// keep point and direction, and the curve has as many curvature extrema as both, and at most two more, proved.
+///
+/// Where no such curve keeps the tolerance, the nearest one that was found is returned: its deviation is larger.
 ///
 /// # Errors
 /// [`MergeError`].
@@ -174,44 +181,60 @@ pub fn merge(
     for part in parts {
         part.check_open("merged")?;
     }
-    Joint::between(first, second).check(tolerance)?;
-    let own = extrema_of(parts, progress)?;
+    let joint = Joint::between(first, second);
+    joint.check(first.size().max(second.size()))?;
+    let [own, inflections] = counts_of(parts, progress)?;
     if let Some(polygon) = continued(parts) {
-        let extrema = extrema_of([&polygon], progress)?;
+        let [extrema, _] = counts_of([&polygon], progress)?;
         let merged = measured(parts, polygon, [own, extrema], progress);
         return merged.map_err(|_| MergeError::Cancelled);
     }
     let search = Search {
-        points: points_of(parts),
+        points: points_of(parts, tolerance),
         parts,
+        is_smooth: joint.angle <= SMOOTH && joint.meets(tolerance),
         planar: parts.iter().all(|it| it.is_planar()),
+        inflections: inflections + usize::from(bends_over(parts)),
         tolerance,
         progress,
     };
-    let expected = own + added_by_joint(parts, search.planar, tolerance);
-    let others = (own..=own + ADDED).filter(|extrema| *extrema != expected);
-    for extrema in [expected].into_iter().chain(others) {
+    let first_tried = match search.is_smooth {
+        true => own + added_by_joint(parts, search.planar, tolerance),
+        // With few extrema a corner or a gap spreads over both curves.
+        false => own,
+    };
+    let others = (own..=own + ADDED).filter(|extrema| *extrema != first_tried);
+    let mut nearest: Option<Merged> = None;
+    for extrema in [first_tried].into_iter().chain(others) {
         let found = search.with_extrema(extrema)?;
-        if progress.is_cancelled() {
+        if progress.is_cancelled() && !progress.is_late() {
             return Err(MergeError::Cancelled);
         }
         let Some(polygon) = found else {
             continue;
         };
-        let merged = measured(parts, polygon, [own, extrema], progress);
+        let merged = measured(parts, polygon, [own, extrema], &progress.without_limit());
         let merged = merged.map_err(|_| MergeError::Cancelled)?;
         if merged.deviation <= tolerance {
             return Ok(merged);
         }
+        let is_nearer = |known: &Merged| merged.deviation < known.deviation;
+        if nearest.as_ref().is_none_or(is_nearer) {
+            nearest = Some(merged);
+        }
     }
-    Err(MergeError::OutOfReach { tolerance })
+    nearest.ok_or(MergeError::NotFound)
 }
 
 /// A search for one curve along two others.
 struct Search<'a> {
     parts: [&'a FloatPolygon; 2],
     points: Vec<DVec3>,
+    /// Whether the ends meet within the tolerance and without a corner.
+    is_smooth: bool,
     planar: bool,
+    /// The inflections of both, and one where the curvature changes its sign at the joint.
+    inflections: usize,
     tolerance: f64,
     progress: &'a Progress,
 }
@@ -243,6 +266,12 @@ impl Search<'_> {
             .sum::<usize>()
     }
 
+    /// The distance at which the search may end. A corner or a gap moves both curves however many vertices there are:
+    /// there the nearest curve is sought, the same one for all tolerances.
+    fn sought(&self, share: f64) -> Option<f64> {
+        self.is_smooth.then_some(share * self.tolerance)
+    }
+
     /// The conditions at the outer ends.
     fn ends(&self) -> [(End, EndTarget); 2] {
         let [first, second] = self.parts;
@@ -260,7 +289,9 @@ impl Search<'_> {
             degree: self.degree(),
             most: Some(self.most()),
             extrema: Extrema::Exactly(extrema),
-            tolerance: Some(KEPT * self.tolerance),
+            // Across a gap the nearest curve would turn there and back.
+            inflections: (!self.is_smooth).then_some(self.inflections),
+            tolerance: self.sought(KEPT),
             exact_ends: [true; 2],
             directions: self.ends().map(|(_, end)| Some(end.direction?.truncate())),
             outliers: Some(Vec::new()),
@@ -279,7 +310,7 @@ impl Search<'_> {
             degree: self.degree(),
             most: Some(self.most()),
             extrema: Some(extrema),
-            tolerance: Some(KEPT_IN_SPACE * self.tolerance),
+            tolerance: self.sought(KEPT_IN_SPACE),
             outliers: Some(Vec::new()),
             ..FitRequest::default()
         };
@@ -342,30 +373,55 @@ fn continued([first, second]: [&FloatPolygon; 2]) -> Option<FloatPolygon> {
     FloatPolygon::new(degree, vertices.copied().collect(), weights, false).ok()
 }
 
-fn extrema_of<const N: usize>(
+/// Whether the curvature of planar curves changes its sign where they meet.
+fn bends_over([first, second]: [&FloatPolygon; 2]) -> bool {
+    let [before, behind] = [first.end_jet(End::Finish), second.end_jet(End::Start)];
+    before.curvature_of(true) * behind.curvature_of(true) < 0.0
+}
+
+/// The curvature extrema and the inflections of some curves together.
+fn counts_of<const N: usize>(
     parts: [&FloatPolygon; N],
     progress: &Progress,
-) -> Result<usize, MergeError> {
-    let mut sum = 0;
+) -> Result<[usize; 2], MergeError> {
+    let mut sums = [0; 2];
     for part in parts {
         let features = Features::proved(part, |_| !progress.is_cancelled());
         let features = features.ok_or(MergeError::Cancelled)?;
-        sum += features.count(Feature::CurvatureExtremum);
+        sums[0] += features.count(Feature::CurvatureExtremum);
+        sums[1] += features.count(Feature::Inflection);
     }
-    Ok(sum)
+    Ok(sums)
 }
 
-/// Points along both curves; the ends that meet count once, in the middle between them.
-fn points_of([first, second]: [&FloatPolygon; 2]) -> Vec<DVec3> {
+/// Points along both curves. The ends count once, in the middle between them, unless a gap lies between them; where the
+/// curves overlap, the points beyond the middle do not count.
+fn points_of(parts: [&FloatPolygon; 2], tolerance: f64) -> Vec<DVec3> {
     let along = |polygon: &FloatPolygon| -> Vec<DVec3> {
         let places = (0..=SAMPLES * polygon.segments()).map(|it| it as f64 / SAMPLES as f64);
         places.map(|u| polygon.point(u)).collect()
     };
-    let [mut points, others] = [first, second].map(along);
-    if let (Some(end), Some(start)) = (points.last_mut(), others.first()) {
-        *end = end.midpoint(*start);
+    let [first, second] = parts;
+    let jets = [first.end_jet(End::Finish), second.end_jet(End::Start)];
+    let [mut points, mut others] = parts.map(along);
+    let way = jets[1].point - jets[0].point;
+    let tangents = jets.map(|jet| jet.tangent().unwrap_or(DVec3::ZERO));
+    let ahead = (tangents[0] + tangents[1]).normalize_or_zero();
+    let gap = way.dot(ahead);
+    if way.length() > tolerance && gap > (way - gap * ahead).length() {
+        points.append(&mut others);
+        return points;
     }
-    points.extend(others.iter().skip(1));
+    let middle = jets[0].point.midpoint(jets[1].point);
+    let is_beyond = |point: &DVec3, side: f64| side * (*point - middle).dot(ahead) >= 0.0;
+    points.pop();
+    while points.len() > 1 && points.last().is_some_and(|it| is_beyond(it, 1.0)) {
+        points.pop();
+    }
+    let mut others = others.into_iter().skip(1).peekable();
+    while others.len() > 1 && others.next_if(|it| is_beyond(it, -1.0)).is_some() {}
+    points.push(middle);
+    points.extend(others);
     points
 }
 
@@ -377,7 +433,9 @@ fn measured(
     progress: &Progress,
 ) -> Result<Merged, DistanceError> {
     let first = Track::along(&polygon, parts[0], 0.0);
-    let second = Track::along(&polygon, parts[1], first.at(parts[0].segments() as f64));
+    let joint = first.at(parts[0].segments() as f64);
+    let begin = beside(&polygon, parts[1].point(0.0), joint);
+    let second = Track::along(&polygon, parts[1], begin);
     let tracks = [first, second];
     let (mut deviation, mut bounded) = (0.0_f64, true);
     for (part, track) in parts.into_iter().zip(&tracks) {
@@ -393,6 +451,22 @@ fn measured(
         bounded,
         extrema,
     })
+}
+
+/// The parameter of the nearest sample to a point, walking from a parameter: the curves that are merged may overlap or
+/// leave a gap.
+fn beside(polygon: &FloatPolygon, point: DVec3, from: f64) -> f64 {
+    let step = 1.0 / TRACKED as f64;
+    let last = polygon.segments() as f64;
+    let off = |u: f64| polygon.point(u).distance(point);
+    let mut place = from;
+    for way in [-step, step] {
+        let on = |place: f64| (place + way).clamp(0.0, last);
+        while off(on(place)) < off(place) {
+            place = on(place);
+        }
+    }
+    place
 }
 
 impl Track {
