@@ -283,16 +283,8 @@ fn fitted(
 /// # Errors
 /// [`OperationError`] if the values do not suit the points.
 pub fn left_out(input: &Operands, values: &Values) -> Result<Vec<usize>, OperationError> {
-    let points = input.points();
-    let asked = asked(points.len(), values)?;
-    let in_space = is_in_space(input);
-    let pieces = pieces_of(input, values).into_iter();
-    let left_out = pieces.flat_map(|piece| {
-        let own = piece.of(points);
-        let given = asked.outliers.as_ref().map(|numbers| piece.own(numbers));
-        let weights = input.weights().map(|weights| piece.of(weights));
-        let closes = asked.periodic && piece.is_outer == [true; 2] && !in_space;
-        let counted = CountedPoints::new(&own, closes, given.as_deref(), weights.as_deref());
+    let pieces = counted_pieces(input, values)?.into_iter();
+    let left_out = pieces.flat_map(|(piece, counted)| {
         let left_out = counted.outliers.into_iter();
         left_out.map(move |number| piece.numbers[number])
     });
@@ -301,6 +293,38 @@ pub fn left_out(input: &Operands, values: &Values) -> Result<Vec<usize>, Operati
     left_out.sort_unstable();
     left_out.dedup();
     Ok(left_out)
+}
+
+/// Say that the tolerance lies below the noise of the points, and what to expect of the search then.
+pub fn expectation(input: &Operands, values: &Values) -> Option<String> {
+    // Estimating takes time, and without a tolerance there is nothing to compare.
+    let tolerance = given(values, &TOLERANCE)?;
+    let pieces = counted_pieces(input, values).ok()?;
+    let noise = pieces
+        .iter()
+        .map(|(_, counted)| counted.noise_of_counting());
+    let remark = remark_on_noise(Some(tolerance), noise.fold(0.0, f64::max))?;
+    Some(format!("{remark}: expect many extrema, or a miss"))
+}
+
+/// The pieces of the points, and which points of each count.
+fn counted_pieces(
+    input: &Operands,
+    values: &Values,
+) -> Result<Vec<(Piece, CountedPoints)>, OperationError> {
+    let points = input.points();
+    let asked = asked(points.len(), values)?;
+    let in_space = is_in_space(input);
+    let pieces = pieces_of(input, values).into_iter();
+    let counted = pieces.map(|piece| {
+        let own = piece.of(points);
+        let given = asked.outliers.as_ref().map(|numbers| piece.own(numbers));
+        let weights = input.weights().map(|weights| piece.of(weights));
+        let closes = asked.periodic && piece.is_outer == [true; 2] && !in_space;
+        let counted = CountedPoints::new(&own, closes, given.as_deref(), weights.as_deref());
+        (piece, counted)
+    });
+    Ok(counted.collect())
 }
 
 /// Count the curves that a fit with some values makes.

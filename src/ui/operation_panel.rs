@@ -147,8 +147,8 @@ impl OperationPanel {
                 let refused = self.fields.refusal.as_ref();
                 let refused = refused.filter(|refused| refused.parameter.is_none());
                 let refused = refused.map(|refused| refused.text.clone());
-                if in_progress.is_waiting_to_apply() {
-                    widgets::note(ui, "Applies when ready; Cancel ends it");
+                if let Some(text) = note_on_search(in_progress) {
+                    widgets::note(ui, text);
                     return;
                 }
                 if in_progress.is_pending() {
@@ -186,6 +186,15 @@ fn second_ui(ui: &mut Ui, in_progress: &OperationInProgress) -> Option<PanelActi
         "The curve that is joined to the active one; a click on the canvas chooses too",
     );
     chosen.map(PanelAction::Second)
+}
+
+/// What becomes of a search that runs: that it will be applied, or else what to expect of it.
+fn note_on_search(in_progress: &OperationInProgress) -> Option<&str> {
+    if in_progress.is_waiting_to_apply() {
+        return Some("Applies when ready; Cancel ends it");
+    }
+    let points = in_progress.fitted_points();
+    points.filter(|_| in_progress.is_pending())?.expectation()
 }
 
 /// The atlas that the operation offers.

@@ -369,3 +369,22 @@ fn an_approximation_that_is_stopped_keeps_the_best_found() {
         assert!(script.editor.document().is_same(&before));
     }
 }
+
+#[test]
+fn a_tolerance_below_the_noise_is_told_during_the_search() {
+    let (script, _woken) = searching();
+    let expectation = |script: &Script| {
+        let points = script.editor.operation()?.fitted_points()?;
+        points.expectation().map(str::to_owned)
+    };
+    let told = expectation(&script).expect("the tolerance is far too small");
+    assert!(
+        told.starts_with("The tolerance 1e-6 is below the estimated noise 0.0"),
+        "{told}"
+    );
+    let mut coarse = fitting();
+    assert_eq!(expectation(&coarse), None);
+    let wide = Value::List(vec![0.5]);
+    coarse.set("tolerance", wide).expect("a tolerance");
+    assert_eq!(expectation(&coarse), None);
+}

@@ -14,6 +14,8 @@ pub struct FittedPoints {
     pub(super) left_out: Vec<usize>,
     /// How many curves the present values ask for.
     pub(super) curves: usize,
+    /// What to expect of the search with the present values, if they ask for more than the points allow.
+    pub(super) expectation: Option<String>,
     /// The nearest place of each point; empty until it is measured.
     pub(super) nearest: Vec<Nearest>,
 }
@@ -22,6 +24,11 @@ impl FittedPoints {
     /// The numbers of the points that the present values leave out, in order.
     pub fn left_out(&self) -> &[usize] {
         &self.left_out
+    }
+
+    /// What to expect of the search with the present values, if they ask for more than the points allow.
+    pub fn expectation(&self) -> Option<&str> {
+        self.expectation.as_deref()
     }
 
     /// The point that counts and is farthest off, with its distance; `None` until the distances are measured.

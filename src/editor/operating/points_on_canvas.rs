@@ -33,6 +33,7 @@ impl OperationInProgress {
         {
             self.points.left_out = left_out;
             self.points.curves = fit::curves(&self.input, &self.values);
+            self.points.expectation = fit::expectation(&self.input, &self.values);
         }
     }
 

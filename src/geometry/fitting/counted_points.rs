@@ -10,6 +10,10 @@ use super::neighbours::{noise, outliers};
 /// for rounding.
 const REPEATED: f64 = 1e-6;
 
+/// Of more points than the first number about as many as the second are looked at while a fit is searched for.
+pub(super) const MANY: usize = 1500;
+pub(super) const ENOUGH: usize = 500;
+
 /// Points that count, how much each does, and what is known of the others.
 pub struct CountedPoints {
     /// Those that count, without repeated ones.
@@ -76,6 +80,30 @@ impl CountedPoints {
             noise: noise(&differing),
         }
     }
+
+    /// The estimated standard deviation of the noise of those that count. Of many points neighbours are nearer to each
+    /// other than their noise, which hides it: of them some are looked at.
+    pub fn noise_of_counting(&self) -> f64 {
+        match self.points.len() > MANY {
+            true => noise(&every(&self.points, ENOUGH)),
+            false => self.noise,
+        }
+    }
+}
+
+/// The numbers of those that are kept of many.
+pub(super) fn kept_of(count: usize, enough: usize) -> Vec<usize> {
+    let last = count.saturating_sub(1);
+    let step = last.div_ceil(enough).max(1);
+    let mut kept: Vec<usize> = (0..last).step_by(step).collect();
+    kept.push(last);
+    kept
+}
+
+/// Keep some of many, evenly, with the first and the last one.
+pub(super) fn every<T: Copy>(all: &[T], enough: usize) -> Vec<T> {
+    let kept = kept_of(all.len(), enough).into_iter();
+    kept.filter_map(|number| all.get(number).copied()).collect()
 }
 
 /// Whether the last of some points repeats the first one.

@@ -60,6 +60,10 @@ const STALE: [usize; 2] = [4, 10];
 const GAIN: f64 = 0.9;
 const NOISY: f64 = 10.0;
 
+/// The share of the time that is left after which a search for a tolerance below the noise ends without a gain: 3 s of
+/// 10 s. Hardly any curve keeps it, and more extrema only follow the noise.
+const HOPELESS_SHARE: f64 = 0.3;
+
 /// How near a number of extrema comes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TradeOff {
@@ -468,8 +472,16 @@ impl Fit<'_> {
         let (mut extrema, mut stale) = (usize::from(self.asked.mirror.is_some()), 0);
         // The largest number that misses the tolerance.
         let mut missed = None;
+        let mut progress = self.patient();
         while extrema <= most {
-            let found = self.searched(extrema, &mut search);
+            let fit = Fit {
+                progress: &progress,
+                ..*self
+            };
+            let found = fit.searched(extrema, &mut search);
+            if found.gains {
+                progress = self.patient();
+            }
             if found.keeps {
                 self.bisect([missed, Some(extrema)], step, &mut search);
                 break;
@@ -482,7 +494,7 @@ impl Fit<'_> {
             let best = search.best.as_ref().map_or(f64::INFINITY, |it| it.largest);
             let is_noisy = best <= NOISY * self.prepared.noise;
             let patience = STALE[usize::from(!is_noisy)];
-            if stale >= patience || self.progress.is_cancelled() {
+            if stale >= patience || progress.is_cancelled() {
                 break;
             }
             missed = Some(extrema);
@@ -507,6 +519,14 @@ impl Fit<'_> {
         }
         search.trade_off.sort_by_key(|it| it.extrema);
         search
+    }
+
+    /// The time until the next gain.
+    fn patient(&self) -> Progress {
+        match self.prepared.tolerance < self.prepared.noise {
+            true => self.progress.hurried(HOPELESS_SHARE),
+            false => self.progress.clone(),
+        }
     }
 
     /// Find what a few more extrema than those of the best would reach, for the choice alone.

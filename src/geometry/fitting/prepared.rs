@@ -2,11 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use super::counted_points::CountedPoints;
+use super::counted_points::{CountedPoints, ENOUGH, MANY, every, kept_of};
 use super::error::FitError;
 use super::levels::size;
 use super::mirror::Mirror;
-use super::neighbours::{self, with_middles};
+use super::neighbours::with_middles;
 use super::plane_fit::{Extrema, PlaneFit};
 use super::problem::{EndCondition, EndValue};
 use crate::geometry::control_polygon::check_size;
@@ -16,10 +16,6 @@ use crate::geometry::end::End;
 /// many normal errors is.
 const NEAR: f64 = 5e-4;
 const NOISE: f64 = 3.0;
-
-/// Of more points than the first number about as many as the second are looked at while a fit is searched for.
-const MANY: usize = 1500;
-const ENOUGH: usize = 500;
 
 /// The most points that a fit is refined on. They leave nothing to bulge between them, and their errors cancel.
 const DENSE: usize = 20_000;
@@ -90,11 +86,7 @@ impl Prepared {
                 needed: extrema + OUTER,
             });
         }
-        // Of many points neighbours are nearer to each other than their noise, which hides it.
-        let noise = match found > MANY {
-            true => neighbours::noise(&every(&counted.points, ENOUGH)),
-            false => counted.noise,
-        };
+        let noise = counted.noise_of_counting();
         let weights = counted.weights;
         let counting: Vec<DVec2> = counted.points.iter().map(|it| it.truncate()).collect();
         let tolerance = match asked.tolerance {
@@ -214,21 +206,6 @@ impl Prepared {
         };
         self.counts.iter().map(place).collect()
     }
-}
-
-/// The numbers of those that are kept of many.
-fn kept_of(count: usize, enough: usize) -> Vec<usize> {
-    let last = count.saturating_sub(1);
-    let step = last.div_ceil(enough).max(1);
-    let mut kept: Vec<usize> = (0..last).step_by(step).collect();
-    kept.push(last);
-    kept
-}
-
-/// Keep some of many, evenly, with the first and the last one.
-fn every<T: Copy>(all: &[T], enough: usize) -> Vec<T> {
-    let kept = kept_of(all.len(), enough).into_iter();
-    kept.filter_map(|number| all.get(number).copied()).collect()
 }
 
 /// The conditions at the ends of an open curve.
