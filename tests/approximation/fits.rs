@@ -1,12 +1,15 @@
 //! Curves through the middle of points that are off known curves.
 
+use std::path::Path;
+use std::time::Duration;
+
 use batten::geometry::FloatPolygon;
 use batten::geometry::approximation::{self, FitRequest};
 use batten::geometry::features::Features;
 use batten::geometry::fitting::{Extrema, FitError, PlaneFit, fit_plane};
 use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{Differentiable, Progress};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::common::Random;
 
@@ -499,4 +502,27 @@ fn points_on_a_line_make_a_straight_curve() {
         let legs: Vec<DVec3> = legs.collect();
         assert!(legs.iter().all(|leg| *leg == legs[0]), "{case}: {legs:?}");
     }
+}
+
+#[test]
+fn an_outline_with_many_waves_keeps_its_tolerance_in_time() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/glyphs/S.csv");
+    let text = std::fs::read_to_string(file).expect("the file");
+    let point = |line: &str| {
+        let (x, y) = line.split_once(',').expect("two numbers");
+        DVec2::new(x.parse().expect("x"), y.parse().expect("y"))
+    };
+    let points: Vec<DVec2> = text.lines().map(point).collect();
+    let asked = PlaneFit {
+        degree: 5,
+        tolerance: Some(0.5),
+        outliers: Some(Vec::new()),
+        exact_ends: [true; 2],
+        ..PlaneFit::default()
+    };
+    // The numbers of extrema that are too small take longer than that.
+    let progress = Progress::default().limited(Duration::from_secs(5));
+    let found = fit_plane(&points, &asked, &progress).expect("a fit");
+    assert!(found.holds && found.deviation <= 0.5, "{}", found.deviation);
+    assert!(found.extrema <= 8, "{}", found.extrema);
 }

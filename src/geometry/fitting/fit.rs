@@ -6,7 +6,7 @@ use std::time::Duration;
 use glam::{DVec2, DVec3};
 
 use super::error::FitError;
-use super::levels::{Level, Task};
+use super::levels::{self, Level, Task};
 use super::plane_fit::{Extrema, PlaneFit};
 use super::prepared::Prepared;
 use super::problem::{Data, EndCondition, EndValue};
@@ -38,6 +38,18 @@ const MOST_EXTREMA: usize = 80;
 const FAR: f64 = 6.0;
 const SKIPS_FROM: usize = 4;
 const STRIDES_FROM: usize = 8;
+
+/// Where a smoothed curve lets expect so many extrema or more, the search tries up to so many numbers from there on first,
+/// in this share of the time: smaller ones may take all of it to miss the tolerance. A number that misses it by more than
+/// this factor and gains little is given up early, so that the others have the time if the expectation was wrong.
+const EXPECTED: usize = 3;
+const EXPECTED_TRIES: usize = 3;
+const EXPECTED_TIME: f64 = 0.3;
+const EXPECTED_FAR: f64 = 1.5;
+
+/// The same factor for smaller numbers than one that keeps the tolerance. With half of it, sections get up to five extrema
+/// more than they take.
+const FAR_BELOW: f64 = 3.0;
 
 /// So many further numbers are tried for so long beside the fewest, so that there is something to choose from.
 const MORE: usize = 2;
@@ -237,6 +249,7 @@ impl Fit<'_> {
             count: self.asked.count,
             most: most.max(self.asked.degree + 1),
             tolerance,
+            far: levels::FAR,
             known: None,
             tables: self.tables,
             progress: self.progress,
@@ -464,26 +477,38 @@ impl Fit<'_> {
 
     /// The fit with the fewest extrema that keeps the tolerance, or else the nearest.
     fn fewest(&self, is_shown: bool) -> Search {
-        let mut search = Search {
+        let afresh = || Search {
             is_shown,
             ..Search::default()
         };
+        let (mut expected, mut search) = (afresh(), afresh());
         let (step, most) = self.numbers();
-        let (mut extrema, mut stale) = (usize::from(self.asked.mirror.is_some()), 0);
+        let least = usize::from(self.asked.mirror.is_some());
+        // The fewest that are known to keep the tolerance.
+        let kept = self.expected([least, most], step, &mut expected);
+        if kept.is_some() {
+            std::mem::swap(&mut expected, &mut search);
+        }
+        let far = kept.map_or(levels::FAR, |_| FAR_BELOW);
+        let (mut extrema, mut stale) = (least, 0);
         // The largest number that misses the tolerance.
         let mut missed = None;
         let mut progress = self.patient();
         while extrema <= most {
+            if let Some(kept) = kept.filter(|kept| *kept <= extrema) {
+                self.bisect([missed, Some(kept)], step, far, &mut search);
+                break;
+            }
             let fit = Fit {
                 progress: &progress,
                 ..*self
             };
-            let found = fit.searched(extrema, &mut search);
+            let found = fit.searched(extrema, far, &mut search);
             if found.gains {
                 progress = self.patient();
             }
             if found.keeps {
-                self.bisect([missed, Some(extrema)], step, &mut search);
+                self.bisect([missed, Some(extrema)], step, far, &mut search);
                 break;
             }
             stale = if found.gains || search.best.is_none() {
@@ -494,7 +519,7 @@ impl Fit<'_> {
             let best = search.best.as_ref().map_or(f64::INFINITY, |it| it.largest);
             let is_noisy = best <= NOISY * self.prepared.noise;
             let patience = STALE[usize::from(!is_noisy)];
-            if stale >= patience || progress.is_cancelled() {
+            if (stale >= patience && kept.is_none()) || progress.is_cancelled() {
                 break;
             }
             missed = Some(extrema);
@@ -514,6 +539,10 @@ impl Fit<'_> {
             };
             self.progress.set_done((extrema as f64 / 10.0).min(0.9));
         }
+        let off = |search: &Search| search.best.as_ref().map_or(f64::INFINITY, |it| it.largest);
+        if off(&search) > self.prepared.tolerance && off(&expected) < off(&search) {
+            search.best = expected.best;
+        }
         if self.asked.lists_trade_off {
             self.try_more(step, &mut search);
         }
@@ -527,6 +556,31 @@ impl Fit<'_> {
             true => self.progress.hurried(HOPELESS_SHARE),
             false => self.progress.clone(),
         }
+    }
+
+    /// Find a number of extrema that keeps the tolerance, beginning with the one that a smoothed curve lets expect.
+    fn expected(
+        &self,
+        [least, most]: [usize; 2],
+        step: usize,
+        search: &mut Search,
+    ) -> Option<usize> {
+        let task = self.task(0, None);
+        let expected = task.estimated_extrema(most, self.prepared.tolerance)?;
+        if expected < EXPECTED {
+            return None;
+        }
+        let progress = self.progress.hurried(EXPECTED_TIME);
+        let hurried = Fit {
+            progress: &progress,
+            ..*self
+        };
+        let first = least + expected.saturating_sub(least).div_ceil(step) * step;
+        let next = |extrema: &usize| Some(extrema + step + extrema / 4 / step * step);
+        let numbers =
+            std::iter::successors(Some(first), next).take_while(|extrema| *extrema <= most);
+        let mut numbers = numbers.take(EXPECTED_TRIES);
+        numbers.find(|extrema| hurried.searched(*extrema, EXPECTED_FAR, search).keeps)
     }
 
     /// Find what a few more extrema than those of the best would reach, for the choice alone.
@@ -551,13 +605,19 @@ impl Fit<'_> {
     }
 
     /// Try numbers of extrema between one that misses the tolerance and one that keeps it.
-    fn bisect(&self, [missed, kept]: [Option<usize>; 2], step: usize, search: &mut Search) {
+    fn bisect(
+        &self,
+        [missed, kept]: [Option<usize>; 2],
+        step: usize,
+        far: f64,
+        search: &mut Search,
+    ) {
         let (Some(mut low), Some(mut high)) = (missed, kept) else {
             return;
         };
         while high > low + step && !self.progress.is_cancelled() {
             let middle = low + (high - low) / 2 / step * step;
-            match self.searched(middle, search).keeps {
+            match self.searched(middle, far, search).keeps {
                 true => high = middle,
                 false => low = middle,
             }
@@ -565,20 +625,23 @@ impl Fit<'_> {
     }
 
     /// Try a number of extrema, and keep what is better than the best so far: what keeps the tolerance with fewer
-    /// extrema, or else what is nearer.
-    fn searched(&self, extrema: usize, search: &mut Search) -> Searched {
+    /// extrema, or else what is nearer. A number that misses it by more than the factor `far` and gains little is given up.
+    fn searched(&self, extrema: usize, far: f64, search: &mut Search) -> Searched {
         let tolerance = self.prepared.tolerance;
         let fewer = search.fewer(extrema);
         let is_first = search.is_shown && search.best.is_none();
-        let levels = self
-            .task(extrema, Some(tolerance))
-            .levels(&fewer, &|known| {
-                if is_first {
-                    self.show_chosen(known, true);
-                }
-            });
+        let task = Task {
+            far,
+            ..self.task(extrema, Some(tolerance))
+        };
+        let levels = task.levels(&fewer, &|known| {
+            if is_first {
+                self.show_chosen(known, true);
+            }
+        });
         search.known.insert(extrema, levels.clone());
         let (found, trade_off) = self.refined_choice(extrema, levels, true);
+        search.trade_off.retain(|row| row.extrema != extrema);
         search.trade_off.extend(trade_off);
         let distance =
             |level: &Option<Level>| level.as_ref().map_or(f64::INFINITY, |it| it.largest);

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::descent::descend;
+use super::estimate::estimated_extrema;
 use super::first_places::{closed_shares, open_shares};
 use super::problem::{Data, PlacedCurve, Problem, Start};
 use super::sign_runs::SignRuns;
@@ -58,9 +59,9 @@ const WITHIN_STEPS: usize = 30;
 /// Steps from a level that is fitted to more points, or with more vertices and fewer extrema.
 const REFINING_STEPS: usize = 10;
 
-/// From this level on, a tolerance that is missed by more than this factor with less than that gain is given up.
+/// From this level on, a tolerance that is missed by far with less than that gain is given up.
 const FAR_LEVEL: usize = 3;
-const FAR: f64 = 8.0;
+pub(super) const FAR: f64 = 8.0;
 const FAR_GAIN: f64 = 0.85;
 
 /// Extrema nearer to each other or to an end than this share of a segment are none to the eye.
@@ -98,6 +99,8 @@ pub(super) struct Task<'a> {
     pub(super) most: usize,
     /// The largest distance of a point.
     pub(super) tolerance: Option<f64>,
+    /// From the fourth level on, a tolerance that is missed by more than this factor and gains little is given up.
+    pub(super) far: f64,
     /// A curve with the number of vertices asked for, from which held ones are taken.
     pub(super) known: Option<&'a PlacedCurve>,
     pub(super) tables: &'a SlopeTables,
@@ -179,7 +182,11 @@ impl<'a> Task<'a> {
             if self.progress.is_cancelled() {
                 break;
             }
-            let ends = count >= most || (stale >= STALE && self.count.is_none());
+            let is_far = self.tolerance.is_some_and(|tolerance| {
+                let far = |best: &Level| best.largest > self.far * tolerance && gain > FAR_GAIN;
+                level >= FAR_LEVEL && levels.last().is_none_or(far)
+            });
+            let ends = count >= most || is_far || (stale >= STALE && self.count.is_none());
             if let (Some(best), Some(tolerance)) = (levels.last(), self.tolerance) {
                 let is_close = best.largest > tolerance && best.largest < CLOSE * tolerance;
                 let is_new = tried != Some(levels.len());
@@ -198,11 +205,7 @@ impl<'a> Task<'a> {
             if levels.last().is_some_and(|best| best.rms < EXACT * size) && self.count.is_none() {
                 break;
             }
-            let is_far = self.tolerance.is_some_and(|tolerance| {
-                let far = |best: &Level| best.largest > FAR * tolerance && gain > FAR_GAIN;
-                level >= FAR_LEVEL && levels.last().is_none_or(far)
-            });
-            if ends || is_far {
+            if ends {
                 break;
             }
             // Where more vertices bring nothing, the number asked for comes next.
@@ -251,6 +254,24 @@ impl<'a> Task<'a> {
             })
         });
         curves.min_by(|a, b| a.rms.total_cmp(&b.rms))
+    }
+
+    /// Estimate the fewest extrema, of so many at most, that a tolerance takes, from the smoothed curve with the fewest
+    /// vertices that keeps it.
+    pub(super) fn estimated_extrema(&self, most: usize, tolerance: f64) -> Option<usize> {
+        let [(bend, fair), _] = STARTS;
+        let last = self.count.unwrap_or(self.most);
+        let mut count = (self.degree + 4).min(last);
+        loop {
+            let problem = self.problem(count);
+            let curve = problem.smoothed(self.first_places(&problem, bend), fair, ROUNDS)?;
+            let [_, largest] = problem.errors(&curve);
+            if largest <= tolerance || count >= last {
+                let near = tolerance.max(largest);
+                return Some(estimated_extrema(&problem, &curve.vertices, most, near));
+            }
+            count = self.next_count(count).min(last);
+        }
     }
 
     /// Measure a straight line.

@@ -11,6 +11,7 @@ mod conditions;
 mod counted_points;
 mod descent;
 mod error;
+mod estimate;
 mod first_places;
 mod fit;
 mod interior_point;

@@ -1,5 +1,7 @@
 //! Best division of a sequence into runs that rise and fall by turns.
 
+use std::ops::Range;
+
 /// The sequence is thinned out to about so many numbers, and to so many a run where there are many runs.
 const ENOUGH: usize = 300;
 const ENOUGH_A_RUN: usize = 4;
@@ -20,6 +22,25 @@ impl Runs {
     pub(in crate::geometry) fn rises(&self, index: usize) -> bool {
         let run = self.turns.partition_point(|turn| *turn <= index);
         self.begins_rising == run.is_multiple_of(2)
+    }
+
+    /// The stretches on which the nearest sequence that rises and falls so stays level though this one does not.
+    pub(super) fn level_stretches(&self, values: &[f64], weights: &[f64]) -> Vec<Range<usize>> {
+        let bounds = [&[0], &self.turns[..], &[values.len()]].concat();
+        let mut level = Vec::new();
+        for bounds in bounds.windows(2).filter(|bounds| bounds[0] < bounds[1]) {
+            let sign = if self.rises(bounds[0]) { 1.0 } else { -1.0 };
+            let run = (bounds[0]..bounds[1]).map(|it| (sign * values[it], weights[it]));
+            let mut pools = Pools::default();
+            run.for_each(|(value, weight)| pools.push(value, weight));
+            let mut from = bounds[0];
+            for pool in pools.pools {
+                let to = from + pool.members;
+                level.extend((pool.members > 1).then_some(from..to));
+                from = to;
+            }
+        }
+        level
     }
 }
 
@@ -51,32 +72,60 @@ pub(in crate::geometry) fn best_runs(values: &[f64], weights: &[f64], turns: usi
 fn missed_by_runs(values: &[(f64, f64)], rises: bool) -> Vec<Vec<f64>> {
     let sign = if rises { 1.0 } else { -1.0 };
     let from = |first: usize| {
-        // Pools of neighbours: their weight, weighed sum and weighed sum of squares.
-        let mut pools: Vec<[f64; 3]> = Vec::new();
-        let spread = |pool: &[f64; 3]| (pool[2] - pool[1] * pool[1] / pool[0]).max(0.0);
-        let mut missed = 0.0;
+        let mut pools = Pools::default();
         let grown = values[first..].iter().map(|(value, weight)| {
-            let value = sign * value;
-            let mut last = [*weight, weight * value, weight * value * value];
-            while let Some(before) = pools.last().copied() {
-                if before[1] * last[0] < last[1] * before[0] {
-                    break;
-                }
-                pools.pop();
-                missed -= spread(&before);
-                for (sum, part) in last.iter_mut().zip(before) {
-                    *sum += part;
-                }
-            }
-            // What a pool of several misses stands in the sum; one alone misses nothing.
-            missed += spread(&last);
-            missed = missed.max(0.0);
-            pools.push(last);
-            missed
+            pools.push(sign * value, *weight);
+            pools.missed
         });
         grown.collect()
     };
     (0..values.len()).map(from).collect()
+}
+
+/// The nearest rising sequence to one that grows number by number.
+#[derive(Default)]
+struct Pools {
+    pools: Vec<Pool>,
+    /// The weighed sum of the squares by which it misses the sequence.
+    missed: f64,
+}
+
+/// Neighbours that share a number.
+#[derive(Clone, Copy)]
+struct Pool {
+    members: usize,
+    /// Their weight, weighed sum and weighed sum of squares.
+    sums: [f64; 3],
+}
+
+impl Pool {
+    fn missed(&self) -> f64 {
+        let [weight, sum, squares] = self.sums;
+        (squares - sum * sum / weight).max(0.0)
+    }
+}
+
+impl Pools {
+    fn push(&mut self, value: f64, weight: f64) {
+        let mut last = Pool {
+            members: 1,
+            sums: [weight, weight * value, weight * value * value],
+        };
+        while let Some(before) = self.pools.last().copied() {
+            if before.sums[1] * last.sums[0] < last.sums[1] * before.sums[0] {
+                break;
+            }
+            self.pools.pop();
+            self.missed -= before.missed();
+            last.members += before.members;
+            for (sum, part) in last.sums.iter_mut().zip(before.sums) {
+                *sum += part;
+            }
+        }
+        // What a pool of several misses stands in the sum; one alone misses nothing.
+        self.missed = (self.missed + last.missed()).max(0.0);
+        self.pools.push(last);
+    }
 }
 
 /// The ends of the first runs, the next one's first number each, and what all runs miss together.
@@ -129,6 +178,7 @@ mod tests {
         assert!(up.begins_rising && (5..=6).contains(&up.turns[0]), "{up:?}");
         // Each ripple pools two numbers that are 0.2 apart.
         assert!((up.missed - 2.0 * 2.0 * 0.1 * 0.1).abs() < 1e-12, "{up:?}");
+        assert_eq!(up.level_stretches(&values, &even), [1..3, 7..9]);
         assert!(!down.begins_rising && down.missed > up.missed);
         let [all, _] = best_runs(&values, &even, 5);
         assert!(all.missed < 1e-12, "{all:?}");

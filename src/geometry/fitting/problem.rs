@@ -93,6 +93,24 @@ pub(super) struct PlacedCurve {
     pub(super) places: Vec<f64>,
 }
 
+/// A curve sampled at even parameters.
+pub(super) struct Evenly {
+    pub(super) places: Vec<f64>,
+    pub(super) curvatures: Vec<f64>,
+    /// The lengths of the curve between two samples.
+    pub(super) steps: Vec<f64>,
+}
+
+impl Evenly {
+    /// How much each curvature counts: a wave of the curvature κ over a leg h moves the curve by about κ h², so that
+    /// the weights are h⁴.
+    pub(super) fn weights(&self) -> Vec<f64> {
+        let fourth = |step: &f64| step.powi(4);
+        let mean = self.steps.iter().map(fourth).sum::<f64>() / self.steps.len() as f64;
+        self.steps.iter().map(|step| fourth(step) / mean).collect()
+    }
+}
+
 /// Where a search begins: a curve, and the signs of slope and curvature along it.
 #[derive(Clone, Debug)]
 pub(super) struct Start {
@@ -252,30 +270,35 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Sample the curve evenly: parameters, and the curvature times the leg with its weight.
-    ///
-    /// A wave of the curvature κ over a leg h moves the curve by about κ h²: the weights are h⁴.
-    fn curvatures(&self, vertices: &[DVec2]) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
+    /// Sample the curve evenly.
+    pub(super) fn sampled(&self, vertices: &[DVec2]) -> Evenly {
         let samples = SAMPLES * self.splines.segments();
         let count = samples + usize::from(!self.splines.periodic);
         let places: Vec<f64> = (0..count).map(|it| it as f64 / SAMPLES as f64).collect();
         let jets = places.iter().map(|u| {
             let [_, first, second] = self.splines.jet(vertices, *u);
             let speed = first.length().max(f64::MIN_POSITIVE);
-            (first.perp_dot(second) / speed.powi(3), speed)
+            let curvature = first.perp_dot(second) / speed.powi(3);
+            (curvature, speed / SAMPLES as f64)
         });
-        let (curvatures, speeds): (Vec<f64>, Vec<f64>) = jets.unzip();
-        let fourth = |speed: &f64| speed.powi(4);
-        let mean = speeds.iter().map(fourth).sum::<f64>() / speeds.len() as f64;
-        let weights = speeds.iter().map(|speed| fourth(speed) / mean);
-        let weights = weights.collect();
-        (places, curvatures, weights)
+        let (curvatures, steps) = jets.unzip();
+        Evenly {
+            places,
+            curvatures,
+            steps,
+        }
     }
 
     /// The signs of the members of the slope that suit the curvature best, with so many changes: those of
     /// both beginnings, the better one first.
     pub(super) fn slope_runs(&self, vertices: &[DVec2], extrema: usize) -> [SignRuns; 2] {
-        let (places, mut curvatures, mut weights) = self.curvatures(vertices);
+        let sampled = self.sampled(vertices);
+        let mut weights = sampled.weights();
+        let Evenly {
+            places,
+            mut curvatures,
+            ..
+        } = sampled;
         // Of mirror images the first half tells all, and in the middle there is an extremum.
         let own = match self.data.mirror {
             Some(_) => {

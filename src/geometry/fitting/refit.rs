@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::levels::Task;
+use super::levels::{FAR, Task};
 use super::problem::{Data, EndCondition, EndValue, HeldVertex, PlacedCurve};
 use super::slope_coefficients::SlopeTables;
 use crate::geometry::end::End;
@@ -79,6 +79,7 @@ pub(in crate::geometry) fn refit(
         count: Some(polygon.vertices().len()),
         most: polygon.vertices().len(),
         tolerance: None,
+        far: FAR,
         known: Some(&own),
         tables: &tables,
         progress,
