@@ -106,7 +106,7 @@ impl Piece {
     }
 
     /// Fit one curve, whose inner ends are just at the corners. Points keep their numbers. Where free ends make a curve
-    /// that crosses itself and exact ones do not, its ends are exact.
+    /// that crosses itself and exact ones do not, its ends are exact; or else it has more extrema, if that helps.
     pub(super) fn fit(
         &self,
         points: &[DVec2],
@@ -147,25 +147,34 @@ impl Piece {
         };
         let mut found = fit(&asked, &progress.hurried(share))?;
         let mut asked = asked;
-        if found.crossing.is_some() && asked.exact_ends != [true; 2] && !asked.periodic {
+        if found.crossing.is_some() {
+            // It must be about as near.
+            let most = found.tolerance.max(FARTHER * found.deviation);
             let exact = PlaneFit {
                 exact_ends: [true; 2],
                 lists_trade_off: false,
                 ..asked.clone()
             };
-            let uncrossed = fit(&exact, progress);
-            let uncrossed = uncrossed
-                .ok()
-                .filter(|it| it.holds && it.crossing.is_none());
-            // It must be about as near.
-            let is_near = |it: &Fitted| it.deviation <= it.tolerance.max(FARTHER * found.deviation);
-            if let Some(uncrossed) = uncrossed.filter(is_near) {
-                let trade_off = found.trade_off;
-                let uncrossed = Fitted {
-                    trade_off,
+            let mut uncrossed = Vec::new();
+            if asked.exact_ends != [true; 2] && !asked.periodic {
+                let found = fit(&exact, progress).ok();
+                uncrossed.extend(found.map(|found| (exact.clone(), found)));
+            }
+            // The time may have been too short for that.
+            let others = std::mem::take(&mut found.uncrossed).into_iter();
+            uncrossed.extend(others.map(|other| match other.has_exact_ends {
+                true => (exact.clone(), other.fitted),
+                false => (asked.clone(), other.fitted),
+            }));
+            uncrossed.retain(|(_, it)| it.holds && it.crossing.is_none() && it.deviation <= most);
+            // A stable sort leaves exact ends first.
+            uncrossed.sort_by_key(|(_, it)| (it.deviation > it.tolerance, it.extrema));
+            if let Some((own, uncrossed)) = uncrossed.into_iter().next() {
+                asked = own;
+                found = Fitted {
+                    trade_off: found.trade_off,
                     ..uncrossed
                 };
-                (asked, found) = (exact, uncrossed);
             }
         }
         for (outlier, _) in &mut found.outliers {

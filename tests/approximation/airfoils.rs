@@ -257,6 +257,28 @@ fn no_loop_hides_in_a_nose() {
     }
 }
 
+#[test]
+fn beside_a_section_whose_ends_cross_there_is_one_whose_ends_do_not() {
+    // What is not exact may be farther off by this factor.
+    const ABOUT: f64 = 1.25;
+    let mut sections = files(&folder()).into_iter();
+    let (_, points) = sections
+        .find(|(name, _)| name == "e339")
+        .expect("a section");
+    let asked = asked(Extrema::Fewest, None);
+    let found = fit_plane(&points, &asked, &Progress::default()).expect("a fit");
+    assert!(found.crossing.is_some());
+    let exact = found.uncrossed.iter().find(|it| it.has_exact_ends);
+    let exact = &exact.expect("a fit with exact ends").fitted;
+    assert!(exact.holds && exact.crossing.is_none());
+    assert!(exact.deviation <= ABOUT * found.tolerance.max(found.deviation));
+    let ends = [0.0, exact.polygon.segments() as f64];
+    for (u, point) in ends.into_iter().zip([points[0], points[points.len() - 1]]) {
+        let end = exact.polygon.point(u).truncate();
+        assert!(end.distance(point) < 1e-9, "{end}");
+    }
+}
+
 /// Print a line for each wish: how many fits hold, distances by the chord, vertices, seconds.
 #[test]
 #[ignore = "takes minutes; BATTEN_AIRFOILS names the folder of files"]

@@ -12,6 +12,7 @@ use super::prepared::Prepared;
 use super::problem::{Data, EndCondition, EndValue};
 use super::slope_coefficients::SlopeTables;
 use super::winding::crossing_of;
+use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
@@ -57,6 +58,9 @@ const MORE_TIME: Duration = Duration::from_millis(500);
 
 /// So long what asking for each number of extrema brings is looked for, beside the fewest.
 const EACH_TIME: Duration = Duration::from_secs(3);
+
+/// A fit that does not cross itself may be farther off by this factor than one that does.
+const ABOUT: f64 = 1.25;
 
 /// Levels of fewer extrema that begin those of more.
 const RELEASED: usize = 3;
@@ -122,6 +126,18 @@ pub struct Fitted {
     pub stopped: bool,
     /// A point where the curve crosses itself, if the polyline of the points does not.
     pub crossing: Option<DVec2>,
+    /// If it does, others that do not and are about as near: the one that exact ends make of it, and of the others found
+    /// the one with the fewest extrema.
+    pub uncrossed: Vec<Uncrossed>,
+}
+
+/// A fit that does not cross itself, beside one that does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uncrossed {
+    /// The fit.
+    pub fitted: Fitted,
+    /// Whether it has exact ends though they are not asked for.
+    pub has_exact_ends: bool,
 }
 
 /// Fit a curve with a wished number of curvature extrema, or the fewest, to points of the plane that follow each
@@ -160,7 +176,12 @@ pub fn fit_plane_corrected(
         progress,
         tables: &SlopeTables::new(asked.degree),
     };
-    let (level, trade_off, least_extrema) = fit.found();
+    let Found {
+        level,
+        trade_off,
+        least_extrema,
+        others,
+    } = fit.found();
     if progress.is_cancelled() && !progress.is_late() {
         return Err(FitError::Cancelled);
     }
@@ -168,11 +189,29 @@ pub fn fit_plane_corrected(
     let level = level.or_else(smoothed);
     let level = level.ok_or(FitError::NotFound)?;
     let fitted = fit.finished(points, &level, corrected)?;
+    let uncrossed = match fitted.crossing {
+        Some(_) => fit.uncrossed(points, &level, others, corrected),
+        None => Vec::new(),
+    };
     Ok(Fitted {
+        uncrossed,
         trade_off,
         least_extrema,
         ..fitted
     })
+}
+
+/// What a fit has found.
+#[derive(Default)]
+struct Found {
+    /// The best fit.
+    level: Option<Level>,
+    /// What each number of extrema reaches.
+    trade_off: Vec<TradeOff>,
+    /// The fewest extrema that keep the tolerance where the number asked for does not.
+    least_extrema: Option<usize>,
+    /// Fits with other numbers of extrema and vertices, where any will do.
+    others: Vec<Level>,
 }
 
 /// What a search for the fewest extrema knows.
@@ -270,16 +309,22 @@ impl Fit<'_> {
         self.task_of_all(extrema, None).refined(level, places)
     }
 
-    /// The best fit, what each number of extrema reaches, and the fewest that keep the tolerance where the number
-    /// asked for does not.
-    fn found(&self) -> (Option<Level>, Vec<TradeOff>, Option<usize>) {
+    fn found(&self) -> Found {
         if let Some(exact) = self.straight().or_else(|| self.exact()) {
-            return (Some(exact), Vec::new(), None);
+            return Found {
+                level: Some(exact),
+                ..Found::default()
+            };
         }
         let Extrema::Exactly(extrema) = self.asked.extrema else {
             let mut search = self.fewest(true);
             self.ask_for_each(&mut search);
-            return (search.best, search.trade_off, None);
+            return Found {
+                level: search.best,
+                trade_off: search.trade_off,
+                others: search.known.into_values().flatten().collect(),
+                ..Found::default()
+            };
         };
         let (level, trade_off) = self.exactly(extrema, true);
         let tolerance = self.prepared.tolerance;
@@ -287,7 +332,11 @@ impl Fit<'_> {
             .as_ref()
             .is_some_and(|level| level.largest <= tolerance);
         if self.asked.tolerance.is_none() || is_near {
-            return (level, trade_off, None);
+            return Found {
+                level,
+                trade_off,
+                ..Found::default()
+            };
         }
         let search = self.fewest(false);
         let fair = search.best.as_ref().filter(|it| it.largest <= tolerance);
@@ -303,7 +352,12 @@ impl Fit<'_> {
             level
         };
         let least = least.filter(|_| off(&level) > tolerance);
-        (level, search.trade_off, least)
+        Found {
+            level,
+            trade_off: search.trade_off,
+            least_extrema: least,
+            others: Vec::new(),
+        }
     }
 
     /// The straight line that the points lie on: its vertices are even to the last digit, so that nothing bends.
@@ -599,6 +653,7 @@ impl Fit<'_> {
             };
             let levels = task.levels(&fewer, &|_| ());
             fewer.extend(levels.last().cloned());
+            search.known.insert(extrema, levels.clone());
             let (_, trade_off) = self.refined_choice(extrema, levels, true);
             search.trade_off.extend(trade_off);
         }
@@ -774,8 +829,76 @@ impl Fit<'_> {
             repeated: prepared.repeated.clone(),
             stopped: self.progress.is_late(),
             crossing: crossing_of(&polygon, points),
+            uncrossed: Vec::new(),
             polygon,
         })
+    }
+
+    /// Fits about as near as a level that do not cross themselves: the one that exact ends make of it, and of others, within
+    /// the tolerance if possible, the one with the fewest extrema.
+    fn uncrossed(
+        &self,
+        points: &[DVec2],
+        level: &Level,
+        others: Vec<Level>,
+        corrected: &dyn Fn(&FloatPolygon, &[usize]) -> Option<FloatPolygon>,
+    ) -> Vec<Uncrossed> {
+        let tolerance = self.prepared.tolerance;
+        let most = ABOUT * tolerance.max(level.largest);
+        let mut near: Vec<Level> = others
+            .into_iter()
+            .filter(|it| it.largest <= most)
+            .map(|it| self.refined(it))
+            .collect();
+        near.sort_by(|a, b| {
+            let rank = |it: &Level| (it.largest > tolerance, it.start.slopes.cuts.len());
+            rank(a).cmp(&rank(b)).then(a.largest.total_cmp(&b.largest))
+        });
+        let passes = |level: &Level| {
+            let polygon = self.polygon(level);
+            level.holds
+                && level.largest <= most
+                && polygon.is_ok_and(|polygon| crossing_of(&polygon, points).is_none())
+        };
+        let exact = self.with_exact_ends(level).filter(passes);
+        let other = near.into_iter().find(passes);
+        let found = [(exact, true), (other, false)].into_iter();
+        let found = found.filter_map(|(level, has_exact_ends)| {
+            let fitted = self.finished(points, &level?, corrected).ok()?;
+            Some(Uncrossed {
+                fitted,
+                has_exact_ends,
+            })
+        });
+        found.collect()
+    }
+
+    /// The fit with exact ends that a level leads to, however little time is left.
+    fn with_exact_ends(&self, level: &Level) -> Option<Level> {
+        if self.asked.exact_ends == [true; 2] || self.asked.periodic || self.asked.mirror.is_some()
+        {
+            return None;
+        }
+        let progress = self.progress.without_limit();
+        let task = self.task_of_all(level.start.slopes.cuts.len(), None);
+        let (first, last) = (task.data.points.first()?, task.data.points.last()?);
+        let is_point = |it: &EndCondition| matches!(it.value, EndValue::Point(_));
+        let kept = task.data.ends.iter().copied().filter(|it| !is_point(it));
+        let outer = [(End::Start, first), (End::Finish, last)];
+        let points = outer.map(|(end, point)| EndCondition {
+            end,
+            value: EndValue::Point(*point),
+        });
+        let ends: Vec<EndCondition> = points.into_iter().chain(kept).collect();
+        let task = Task {
+            data: Data {
+                ends: &ends,
+                ..task.data
+            },
+            progress: &progress,
+            ..task
+        };
+        Some(task.begun_at(level))
     }
 
     /// The distance of each point from the curve, looked for near the parameters of its neighbours.

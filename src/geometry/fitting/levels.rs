@@ -298,6 +298,12 @@ impl<'a> Task<'a> {
         }
     }
 
+    /// Fit with these conditions, from a level of others.
+    pub(super) fn begun_at(&self, level: &Level) -> Level {
+        let problem = self.problem(level.splines.count);
+        self.attempt(&problem, level.start.clone(), SECOND_STEPS)
+    }
+
     /// Fit a level to these points, from their parameters.
     pub(super) fn refined(&self, level: Level, places: Vec<f64>) -> Level {
         let problem = self.problem(level.splines.count);

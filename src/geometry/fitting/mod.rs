@@ -30,7 +30,7 @@ mod winding;
 
 pub use counted_points::{CountedPoints, is_closed};
 pub use error::FitError;
-pub use fit::{Fitted, TradeOff, fit_plane, fit_plane_corrected};
+pub use fit::{Fitted, TradeOff, Uncrossed, fit_plane, fit_plane_corrected};
 pub use mirror::Mirror;
 pub(super) use monotone_runs::best_runs;
 pub use neighbours::corners;
