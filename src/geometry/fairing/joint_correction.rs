@@ -254,7 +254,7 @@ impl<'a> Correction<'a> {
             _ => Objective::Disturbance {
                 order,
                 fidelity: FIDELITY,
-                curve: 0.0,
+                curve: [0.0; 2],
             },
         };
         let found = problem.meet(objective, begin, most)?;

@@ -12,14 +12,14 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// A sum of squares of the vertices p, which were at p⁰.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Objective {
-    /// The disturbance Σ|Δᵏ(p − p⁰)|² + μ Σ|p − p⁰|² + λ ∫|C − C⁰|² du.
+    /// The disturbance Σ|Δᵏ(p − p⁰)|² + μ Σ|p − p⁰|² + λ ∫(|C − C⁰|² + ν |C″ − C⁰″|²) du.
     Disturbance {
         /// The order k of the differences.
         order: usize,
         /// The weight μ.
         fidelity: f64,
-        /// The weight λ.
-        curve: f64,
+        /// The weights λ and ν.
+        curve: [f64; 2],
     },
     /// The moves of the curve Σ|C − C⁰|² + ν Σ|C″ − C⁰″|² at samples, the derivatives by u.
     CurveMoves {
@@ -128,9 +128,11 @@ impl Objective {
                     let terms: Vec<(usize, f64)> = touched.zip(stencil.iter().copied()).collect();
                     row(Row::Vector(moved(&terms), &terms));
                 }
-                if curve > 0.0 {
-                    let factor = (curve / SAMPLES as f64).sqrt();
-                    curve_rows(shape.polygon, unknowns, &[(0, factor)], &mut |terms| {
+                let [weight, bending] = curve;
+                if weight > 0.0 {
+                    let factor = (weight / SAMPLES as f64).sqrt();
+                    let factors = [(0, factor), (2, factor * bending.sqrt())];
+                    curve_rows(shape.polygon, unknowns, &factors, &mut |terms| {
                         row(Row::Vector(moved(terms), terms));
                     });
                 }

@@ -72,7 +72,7 @@ impl FloatPolygon {
         let least = Objective::Disturbance {
             order: if points.len() > 2 { ORDER } else { ORDER - 1 },
             fidelity: LEAST_WEIGHT,
-            curve: 0.0,
+            curve: [0.0; 2],
         };
         let found = problem.meet(least, spread.vertices(), 1);
         let overflow = PolygonError::Overflow {
