@@ -126,6 +126,18 @@ impl Kept {
     }
 }
 
+/// Whether every vertex of a curve moved.
+pub(super) fn moves_whole(before: &Document, after: &Document) -> bool {
+    let mut curves = after.curves();
+    curves.any(|(id, now)| {
+        let then = before.curve(id).filter(|then| !Arc::ptr_eq(then, now));
+        then.is_some_and(|then| {
+            let moved = moved_vertices(&then.polygon, &now.polygon);
+            moved.len() == now.polygon.vertices().len()
+        })
+    })
+}
+
 /// The vertices that are elsewhere; none for a polygon of another kind, which cannot be compared.
 fn moved_vertices(before: &FloatPolygon, after: &FloatPolygon) -> Vec<usize> {
     if !before.has_numbers_of(after) || before.weights() != after.weights() {

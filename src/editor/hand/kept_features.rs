@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::hand::Hand;
 use super::keeping::Keeping;
+use super::kept_curves::moves_whole;
 use crate::analysis::AnalysisCache;
 use crate::document::{Curve, CurveId, Edit};
 use crate::editor::reply::Refusal;
@@ -26,17 +27,21 @@ impl Hand {
         self.keeping.keep(edits, settled, &try_out, &known)
     }
 
-    /// Find what a drag that other vertices follow adds, unless features are kept.
+    /// Find what a drag adds that reshapes curves, unless features are kept.
     pub(in crate::editor) fn find_added(
         &mut self,
         workspace: &Workspace,
         analyses: &AnalysisCache,
     ) {
-        if self.keeps_features() || !self.turns_following() {
+        if self.keeps_features() || !self.is_dragging() {
             return self.keeping.forget_added();
         }
         let known = known_features(analyses);
         let (after, settled) = (workspace.document(), workspace.settled());
+        // All vertices together move without a change of shape.
+        if !self.turns_following() && moves_whole(settled, after) {
+            return self.keeping.forget_added();
+        }
         self.keeping.find_added(after, settled, &known);
     }
 
