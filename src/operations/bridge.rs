@@ -1,12 +1,14 @@
 //! What joining two curves and closing one share.
 
+use std::f64::consts::PI;
+
 use super::error::OperationError;
 use super::outcome::{Annotation, Figure};
 use super::parameter::{Kind, Parameter};
 use super::value::Value;
 use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, largest_jump};
 use crate::geometry::parameters::Quantity;
-use crate::geometry::significant;
+use crate::geometry::{FloatPolygon, significant};
 
 /// How many vertices a bridge has.
 pub(super) const BRIDGE: Parameter = Parameter {
@@ -70,10 +72,38 @@ pub(super) fn remarks(found: &Bridged) -> Vec<String> {
     halved.into_iter().chain(undecided).collect()
 }
 
-/// Say that a bridge goes a long way round, if it does.
-pub(super) fn detour(found: &Bridged) -> Option<String> {
-    let [length, gap] = [found.length, found.gap].map(|it| significant(it, 3));
-    (found.is_long).then(|| format!("A bridge is {length} long, the gap {gap}"))
+/// How many times as much a bridge may bend as the parts do anywhere, or as the turn between the ends needs over the gap.
+/// Bridges across gaps that their parts fit bend at most twice as much.
+const SHARPEST: f64 = 4.0;
+
+/// The samples of a segment at which curvatures are compared.
+const SAMPLES: usize = 32;
+
+/// Say why a bridge between two parts is no use: it goes a long way round, or is bent sharply.
+pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
+    if found.is_long {
+        let [length, gap] = [found.length, found.gap].map(|it| significant(it, 3));
+        return Some(format!("A bridge is {length} long, the gap {gap}"));
+    }
+    let most = |polygon: &FloatPolygon, [from, to]: [f64; 2]| {
+        let count = ((to - from).ceil() as usize * SAMPLES).max(SAMPLES);
+        let at = |index: usize| from + (to - from) * index as f64 / count as f64;
+        let curvatures = (0..=count).map(|index| polygon.jet(at(index)).curvature());
+        curvatures.fold(0.0, f64::max)
+    };
+    let own = parts.map(|part| most(part, [0.0, part.segments() as f64]));
+    let [end, start] = joint(found);
+    let tangents = [end, start].map(|u| found.polygon.jet(u).tangent());
+    let turn = match tangents {
+        [Some(end), Some(start)] => end.angle_between(start),
+        _ => PI,
+    };
+    let needed = own[0].max(own[1]).max(turn / found.gap);
+    let sharpest = most(&found.polygon, [end, start]);
+    (sharpest > SHARPEST * needed).then(|| {
+        let radius = significant(1.0 / sharpest, 3);
+        format!("A bridge is bent to a radius of {radius}")
+    })
 }
 
 /// Annotation the vertices of a bridge.

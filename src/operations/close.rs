@@ -1,6 +1,6 @@
 //! A curve whose ends are joined, so that it is periodic.
 
-use super::bridge::{BRIDGE, annotations, detour, figures, found, joint, remarks};
+use super::bridge::{BRIDGE, annotations, fault, figures, found, joint, remarks};
 use super::editable::open;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -57,12 +57,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     outcome.renumbered = false;
     outcome.figures = figures(&found);
     outcome.remarks.extend(remarks(&found));
-    if let Some(detour) = detour(&found) {
+    if let Some(fault) = fault(&found, [&curve.polygon; 2]) {
         let failed = Requirement::Failed { left: None };
         outcome.requirements = vec![(id, vec![failed])];
         outcome
             .remarks
-            .push(format!("{detour}: move the ends apart"));
+            .push(format!("{fault}: move the ends apart"));
     }
     outcome.annotations = annotations(&found);
     outcome.joint = Some(joint(&found));

@@ -72,6 +72,9 @@ const TOLERANCE: Parameter = Parameter {
 /// The tolerance of a merged curve, by the size of both.
 const WITHIN: f64 = 1e-4;
 
+/// How far a merged curve may be off where no tolerance is given, by the size: a match would move the second curve more.
+const ALSO_WITHIN: f64 = 1e-3;
+
 const CONTINUITY: Parameter = Parameter {
     name: "continuity",
     label: "Chain up to",
@@ -102,6 +105,9 @@ const CORNER: f64 = 10.0 * PI / 180.0;
 
 /// A gap of at most this share of the size of both curves is closed by merging where a bridge does not fit into it.
 const SMALL: f64 = 0.03;
+
+/// The share of a tolerance that is tried where nothing is found with it.
+const NEARER: f64 = 0.2;
 
 /// The time that a merged curve is looked for.
 const MERGING: Duration = Duration::from_secs(10);
@@ -231,6 +237,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         layout,
         size,
         tolerance: tolerance.unwrap_or(WITHIN * size),
+        is_given: tolerance.is_some(),
         progress,
     };
     match method(values) {
@@ -251,6 +258,8 @@ struct Joining<'a> {
     /// The size of the larger curve.
     size: f64,
     tolerance: f64,
+    /// Whether the user gave it.
+    is_given: bool,
     progress: &'a Progress,
 }
 
@@ -276,7 +285,12 @@ impl Joining<'_> {
         }
         // A hair more, so that rounding does not leave the ends apart.
         let tolerance = self.tolerance.max(gap * (1.0 + MET));
-        match self.merged(tolerance) {
+        let merged = match self.merged(tolerance) {
+            // A search for a nearer curve goes other ways.
+            Err(OperationError::Merge(MergeError::NotFound)) => self.merged(NEARER * tolerance),
+            merged => merged,
+        };
+        match merged {
             Ok((mut merged, possible)) if possible <= tolerance => {
                 merged.remarks.push(
                     "Merged within the gap, which is short; Bridge keeps both curves".to_owned(),
@@ -294,6 +308,11 @@ impl Joining<'_> {
     fn merged_or_chained(&self) -> Result<Outcome, OperationError> {
         let why = match self.merged(self.tolerance) {
             Ok((merged, possible)) if possible <= self.tolerance => return Ok(merged),
+            Ok((_, possible)) if !self.is_given && possible <= ALSO_WITHIN * self.size => {
+                return self
+                    .merged(possible * (1.0 + MET))
+                    .map(|(merged, _)| merged);
+            }
             Ok((_, possible)) => nearest_merge(self.tolerance, possible),
             Err(OperationError::LockedInMerge { name }) => {
                 format!("“{name}” has locked vertices and cannot be merged")
@@ -449,14 +468,15 @@ impl Joining<'_> {
         outcome.remarks.extend(locks::lost(second, &[&part]));
         outcome.annotations = annotations(&found);
         outcome.joint = Some(joint(&found));
-        if let Some(detour) = bridge::detour(&found) {
+        let fault = bridge::fault(&found, [&first.polygon, &part]);
+        if let Some(fault) = &fault {
             let failed = Requirement::Failed { left: None };
             outcome.requirements = vec![(self.parts[0].0, vec![failed])];
             outcome
                 .remarks
-                .push(format!("{detour}: Merge or Chain, or move the ends apart"));
+                .push(format!("{fault}: Merge or Chain, or move the ends apart"));
         }
-        Ok((outcome, found.halvings == 0 && !found.is_long))
+        Ok((outcome, found.halvings == 0 && fault.is_none()))
     }
 
     /// Let the second curve follow the end of the first.
