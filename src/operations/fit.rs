@@ -19,7 +19,10 @@ use crate::geometry::approximation::{self, FitRequest, fit_points};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::fitting::{CountedPoints, Extrema, FitError, Fitted, Mirror, PlaneFit};
 use crate::geometry::parameters::{OutOfRange, Quantity};
-use crate::geometry::{MAX_DEGREE, Progress, counted, significant};
+use crate::geometry::{FloatPolygon, MAX_DEGREE, Progress, counted, significant};
+
+/// A vertex farther off the curve than so many times its size is named.
+const LONG_TAIL: f64 = 5.0;
 
 /// Points that are off a symmetric curve by more than so many tolerances are not symmetric.
 const LOPSIDED: f64 = 10.0;
@@ -628,6 +631,7 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
             "The curve crosses itself at {x}, {y}, its points do not: {advice}"
         ));
     }
+    remarks.extend(remark_on_tails(&found.polygon));
     if asked.mirror.is_some() && found.deviation > LOPSIDED * found.tolerance {
         let off = significant(found.deviation, 3);
         remarks.push(format!(
@@ -652,6 +656,21 @@ fn remarks_on_points(outliers: &[(usize, f64)], repeated: &[usize]) -> Vec<Strin
         remarks.push(format!("{points} the one before: each counts once"));
     }
     remarks
+}
+
+/// Name a vertex that lies far off the curve: it can hardly be dragged.
+fn remark_on_tails(polygon: &FloatPolygon) -> Option<String> {
+    let places = (0..=4 * polygon.segments()).map(|it| polygon.point(it as f64 / 4.0));
+    let places: Vec<DVec3> = places.collect();
+    let low = places.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = places.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let off = |vertex: &DVec3| vertex.distance(vertex.clamp(low, high)) / low.distance(high);
+    let all = polygon.vertices().iter().map(off).enumerate();
+    let (vertex, farthest) = all.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (farthest > LONG_TAIL).then(|| {
+        let sizes = significant(farthest, 2);
+        format!("Vertex {vertex} lies {sizes} times the curve's size away: another number of vertices may be handier")
+    })
 }
 
 /// Tell a tolerance below the noise.

@@ -18,6 +18,9 @@ const FARTHER: f64 = 1.5;
 
 /// The share of the time for a curve whose ends may cross, and how near they are then, by the size of the points.
 const FIRST: f64 = 0.8;
+
+/// How many more extrema than the fewest a fit with exact ends is tried with where that crosses itself.
+const MORE: usize = 2;
 const NEAR: f64 = 0.05;
 
 /// The most that a curve moves to meet its ends to the last digits, in units of its size.
@@ -157,8 +160,25 @@ impl Piece {
             };
             let mut uncrossed = Vec::new();
             if asked.exact_ends != [true; 2] && !asked.periodic {
-                let found = fit(&exact, progress).ok();
-                uncrossed.extend(found.map(|found| (exact.clone(), found)));
+                // Where the fewest extrema cross, some more need not.
+                let more = (1..=MORE).map(|more| Extrema::Exactly(found.extrema + more));
+                let more = more.filter(|_| asked.extrema == Extrema::Fewest);
+                for extrema in std::iter::once(asked.extrema).chain(more) {
+                    let asked = PlaneFit {
+                        extrema,
+                        ..exact.clone()
+                    };
+                    let Ok(mut found) = fit(&asked, progress) else {
+                        break;
+                    };
+                    let others = std::mem::take(&mut found.uncrossed).into_iter();
+                    uncrossed.extend(others.map(|other| (exact.clone(), other.fitted)));
+                    let crosses = found.crossing.is_some();
+                    uncrossed.push((exact.clone(), found));
+                    if !crosses {
+                        break;
+                    }
+                }
             }
             // The time may have been too short for that.
             let others = std::mem::take(&mut found.uncrossed).into_iter();

@@ -12,8 +12,9 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// for a curve near them, and below the whole turn of the smallest loop.
 const WINDING: f64 = 1.5 * PI;
 
-/// Where the polyline turns by more than this at a point, in radians, its turns may be noise and are not added up.
-const CLEAN: f64 = 1.0;
+/// Where the polyline turns by more than this at a point, in radians, its turns may be noise and are not added up: one
+/// of two chords then runs back. A nose or a corner turns by a right angle or a little more.
+const CLEAN: f64 = 2.0;
 
 /// An end that turns from the outermost chord by more than this and the turn of the polyline beside it, in radians, is
 /// a hook.
