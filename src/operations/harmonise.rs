@@ -16,7 +16,7 @@ use super::values::Values;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::harmonising::{
-    Harmonised, Harmony, HarmonyError, Held, flung, follows, harmonise,
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows, harmonise,
 };
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
@@ -130,6 +130,9 @@ const MAX_DEVIATION: Parameter = Parameter {
     ),
 };
 
+/// A move of a vertex by more than this share of the curve's size is named.
+const FAR_MOVE: f64 = 0.5;
+
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "harmonise",
@@ -231,7 +234,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     outcome
         .remarks
         .extend(turned.map(|turned| format!("{turned}: ask for more extrema")));
-    outcome.remarks.extend(flung);
+    match flung {
+        Some(flung) => outcome.remarks.push(flung),
+        None => outcome
+            .remarks
+            .extend(remark_on_tail(&curve.polygon, &found.polygon)),
+    }
     let raised = required.into_iter().filter_map(|(_, remark)| remark);
     outcome.remarks.extend(raised);
     if found.refitted {
@@ -340,6 +348,16 @@ fn one_end() -> [Option<Held>; 7] {
         *meaning = Some(level);
     }
     meanings
+}
+
+/// Name a vertex that moves far beside the size of the curve: the polygon folds, however near the curve stays.
+fn remark_on_tail(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
+    let size = BezierPolygon::from_float(before).size();
+    let (vertex, distance) = farthest_move(before, after)?;
+    (distance > FAR_MOVE * size).then(|| {
+        let distance = significant(distance, 3);
+        format!("Vertex {vertex} moves by {distance}: allow more extrema, or refine first, to move it less")
+    })
 }
 
 /// Say how many of the prominent features are left, if not all of them.

@@ -151,10 +151,14 @@ impl Harmonised {
 
 /// How far a vertex moves, if that is farther than the polygon is large: it is no use then, however near the curve is.
 pub fn flung(before: &FloatPolygon, after: &FloatPolygon) -> Option<(usize, f64)> {
+    farthest_move(before, after).filter(|(_, distance)| *distance > before.size())
+}
+
+/// The vertex that moves farthest, and how far.
+pub fn farthest_move(before: &FloatPolygon, after: &FloatPolygon) -> Option<(usize, f64)> {
     let pairs = before.vertices().iter().zip(after.vertices());
     let moves = pairs.map(|(before, after)| after.distance(*before));
-    let farthest = moves.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    farthest.filter(|(_, distance)| *distance > before.size())
+    moves.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Whether the discrete curvature of a polygon has the extrema and inflections of its curve, in their order; `None` if

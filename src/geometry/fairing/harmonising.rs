@@ -13,7 +13,9 @@ use crate::geometry::features::Features;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
-pub use super::harmonised::{Harmonised, Harmony, HarmonyError, Held, flung, follows};
+pub use super::harmonised::{
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows,
+};
 
 /// The weight ε at which the search begins.
 const FIRST_CLOSENESS: f64 = 1e3;
