@@ -19,9 +19,9 @@ const AXIS: Parameter = Parameter {
     help: "The mirror line through the origin; z: half a turn",
     kind: Kind::Choice {
         options: &[
-            Choice::new("y", "y"),
-            Choice::new("x", "x"),
-            Choice::new("z", "z, half a turn"),
+            Choice::new("y", "Y"),
+            Choice::new("x", "X"),
+            Choice::new("z", "Z, half a turn"),
         ],
         default: 0,
     },
@@ -48,9 +48,9 @@ const PLANE: Parameter = Parameter {
     kind: Kind::Choice {
         options: &[
             Choice::new("none", "The axis counts"),
-            Choice::new("xy", "xy"),
-            Choice::new("xz", "xz"),
-            Choice::new("yz", "yz"),
+            Choice::new("xy", "XY"),
+            Choice::new("xz", "XZ"),
+            Choice::new("yz", "YZ"),
         ],
         default: 0,
     },

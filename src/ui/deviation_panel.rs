@@ -61,7 +61,8 @@ fn limit_ui(ui: &mut Ui, deviation: &Deviation, whiskers: &mut Whiskers) {
             let is_beyond = |it: &&Whisker| it.distance() > limit;
             let beyond = deviation.whiskers().filter(is_beyond).count();
             let of = deviation.whiskers().count();
-            widgets::caption(ui, &format!("{beyond} of {of} beyond"));
+            widgets::caption(ui, &format!("{beyond} beyond"))
+                .on_hover_text(format!("of {of} whiskers"));
         }
     });
 }
@@ -72,15 +73,16 @@ fn figures_ui(ui: &mut Ui, editor: &Editor, compared: CurveId, deviation: &Devia
     };
     let length = |value: f64| document_unit::length(ui.ctx(), figures::significant(value, 4));
     let [largest, mean, rms] = [found.distance(), deviation.mean(), deviation.rms()].map(length);
-    let from = deviation.sides.each_ref().map(|it| {
+    let [own, other] = deviation.sides.each_ref().map(|it| {
         let largest = it.as_ref().map(|it| length(it.largest.distance()));
         largest.unwrap_or("–".to_owned())
     });
     widgets::figure_row(ui, "Largest distance", &largest);
     widgets::figure_row(ui, "Mean, RMS", &format!("{mean}, {rms}"));
-    widgets::figure_row(ui, "There, back", &from.join(", ")).on_hover_text(
-        "Largest distance of this one from the other, and of the other from this one",
-    );
+    widgets::figure_row(ui, "From this one", &own)
+        .on_hover_text("The largest distance of its points from the other one");
+    widgets::figure_row(ui, "From the other", &other)
+        .on_hover_text("The largest distance of the other one's points from this one");
     let ids = [editor.active(), Some(compared)];
     let at = |item: usize, value: f64| place(editor, ids[item], value);
     let (own, other) = (at(side, found.at), at(1 - side, found.nearest_at));

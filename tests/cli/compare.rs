@@ -56,20 +56,20 @@ fn both_sides_and_the_limit_are_told() {
     assert_eq!(beyond["beyond"], json!(25));
     folder.refused(
         &["compare", "lines.batten", "lines.batten"],
-        "choose one with --curve: there are “part”, “whole”",
+        "lines.batten: choose one with --curve: there are “part”, “whole”",
     );
     folder.refused(
         &["compare", "lines.batten", "lines.batten", "--curve", "part"],
-        "choose one with --with",
+        "lines.batten: choose one with --with: there are “part”, “whole”",
     );
     folder.misused(&["compare", "lines.batten"], "required");
 }
 
 #[test]
 fn points_and_units_are_respected() {
-    let curve = json!({"format": "batten", "version": 1, "unit": "in",
+    let curve = json!({"format": "batten", "version": 2, "unit": "in",
         "curves": [line("line", [0.0, 4.0], 0.0)]});
-    let millimetres = json!({"format": "batten", "version": 1, "unit": "mm",
+    let millimetres = json!({"format": "batten", "version": 2, "unit": "mm",
         "curves": [line("line", [0.0, 101.6], 25.4)]});
     let folder = Folder::new()
         .with("inches.batten", curve.to_string())

@@ -845,7 +845,8 @@ fn what_is_applied_before_it_is_known_is_applied_when_it_is() {
         .preview_operation(operation("elevate-degree"))
         .expect("begun");
     assert!(!has_run(&script), "it is not waited for");
-    assert_eq!(script.editor.operating().apply(), Ok(Note::silent()));
+    let waits = script.editor.operating().apply().expect("it waits");
+    assert_eq!(waits.text, "Applies when ready; Esc cancels");
     assert_eq!(script.steps(), 0);
     wait_until(&mut script, &woken, is_applied);
     assert_eq!(script.steps(), 1);
@@ -905,7 +906,7 @@ fn what_is_left_before_it_is_known_never_comes() {
                 .preview_operation(operation("elevate-degree"))
                 .expect("begun");
             if applies {
-                assert_eq!(script.editor.operating().apply(), Ok(Note::silent()));
+                script.editor.operating().apply().expect("it waits");
             }
             leave(&mut script);
             assert!(script.editor.operation().is_none(), "{name}");
