@@ -3,24 +3,25 @@
 use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
-use clap::{CommandFactory, Error, Parser, Subcommand};
+use clap::{ArgGroup, CommandFactory, Error, Parser, Subcommand};
 
 use super::apply::Application;
 use super::apply_arguments::{ApplyArguments, Given};
 use super::compare::Compared;
-use super::convert::Lowering;
 use super::ends::{Destination, STANDARD, Source};
 use super::list::Listed;
 use super::many_files::ManyFiles;
 use super::parsers::{
-    columns, count, example_parser, format_parser, parameter, polygon_parser, spacing_parser,
-    tolerance, unit_parser,
+    columns, count, example_parser, format_parser, kind_parser, parameter, polygon_parser,
+    spacing_parser, tolerance, unit_parser,
 };
 use super::points::Density;
 use crate::document::quoted;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{PolygonKind, Spacing};
 use crate::io::examples::Example;
+use crate::io::exchange::drawing::Kind;
+use crate::io::exchange::import::ImportFilter;
 use crate::io::formats;
 use crate::io::{ColumnChoice, Format};
 
@@ -78,6 +79,7 @@ enum Command {
         json: bool,
     },
     /// Convert a file to another format; what the format cannot hold is listed on stderr
+    #[command(group = ArgGroup::new("nearing").args(["degree_at_most", "to_float"]).multiple(true))]
     Convert {
         /// The file to read, or - for the standard input; its extension tells the format
         #[arg(value_name = "IN")]
@@ -112,14 +114,32 @@ enum Command {
         /// where that is possible.
         #[arg(long, value_name = "DEGREE", value_parser = clap::value_parser!(u8).range(1..=25))]
         degree_at_most: Option<u8>,
-        /// How far curves may move that get a lower degree; without it 1e-4 of their size
-        #[arg(long, value_name = "LENGTH", value_parser = tolerance, requires = "degree_at_most")]
+        /// Take of a drawing only this layer, with what is in it; may be given several times
+        #[arg(long, value_name = "LAYER")]
+        layer: Vec<String>,
+        /// Take of a drawing only this kind; may be given several times
+        #[arg(long, value_name = "KIND", value_parser = kind_parser())]
+        kind: Vec<Kind>,
+        /// Take edges of solids and boundaries of surfaces too
+        #[arg(long)]
+        edges: bool,
+        /// Take layouts for printing too
+        #[arg(long)]
+        paper_space: bool,
+        /// Make float polygons of all smooth references, within the tolerance
+        ///
+        /// The vertices and the deviation of each are told on stderr. One that has none within the tolerance
+        /// stays a reference.
+        #[arg(long)]
+        to_float: bool,
+        /// How far curves may move that get a lower degree or a float polygon; without it 1e-4 of their size
+        #[arg(long, value_name = "LENGTH", value_parser = tolerance, requires = "nearing")]
         tolerance: Option<f64>,
         /// Write so many points on the curve, not its vertices, as `points` does
-        #[arg(long, value_name = "N", value_parser = count, conflicts_with_all = ["polygon", "degree_at_most"])]
+        #[arg(long, value_name = "N", value_parser = count, conflicts_with_all = ["polygon", "nearing"])]
         points: Option<usize>,
         /// Write as few points on the curve as keep the polyline through them this near to it
-        #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with_all = ["points", "polygon", "degree_at_most"])]
+        #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with_all = ["points", "polygon", "nearing"])]
         chord: Option<f64>,
         /// Write a polygon even if it cannot be read back as the curve
         #[arg(long)]
@@ -259,8 +279,12 @@ pub(super) enum Task {
         polygon: Option<PolygonKind>,
         /// The unit of what states none.
         assumed_unit: Option<LengthUnit>,
-        /// The highest degree, and how far curves may move that get it.
-        lowering: Option<Lowering>,
+        /// Whether float polygons are made of references.
+        to_float: bool,
+        /// The highest degree that is written.
+        most_degree: Option<usize>,
+        /// How far curves may move that get a lower degree or a float polygon.
+        tolerance: Option<f64>,
         /// Whether to write what cannot be read back.
         force: bool,
     },
@@ -341,12 +365,23 @@ impl Arguments {
                 polygon,
                 assume_unit,
                 degree_at_most,
+                layer,
+                kind,
+                edges,
+                paper_space,
+                to_float,
                 tolerance,
                 points,
                 chord,
                 force,
             }) => {
                 let source = source("convert", input, from_format, columns)?;
+                let source = source.choosing(ImportFilter {
+                    layers: layer,
+                    kinds: kind,
+                    edges,
+                    paper: paper_space,
+                });
                 let destination = destination("convert", out, to_format)?;
                 let density = points.map(|count| Density::Count(count, Spacing::ArcLength));
                 match density.or(chord.map(Density::Tolerance)) {
@@ -361,10 +396,9 @@ impl Arguments {
                         destination,
                         polygon,
                         assumed_unit: assume_unit,
-                        lowering: degree_at_most.map(|most| Lowering {
-                            most: usize::from(most),
-                            tolerance,
-                        }),
+                        to_float,
+                        most_degree: degree_at_most.map(usize::from),
+                        tolerance,
                         force,
                     },
                 }

@@ -9,22 +9,44 @@ use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{PolygonKind, Progress, counted, rounded_up};
 use crate::io::examples::Example;
 use crate::io::{Export, Format};
-use crate::operations::lowered;
+use crate::operations::{FloatWish, floated, lowered};
 
-/// Which degrees are lowered.
+/// What happens on the way from one file to another.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lowering {
+pub(super) struct Conversion {
+    /// The polygon to write.
+    pub(super) polygon: Option<PolygonKind>,
+    /// The unit of what states none.
+    pub(super) assumed_unit: Option<LengthUnit>,
+    /// Whether float polygons are made of references.
+    pub(super) to_float: bool,
     /// The highest degree that is written.
-    pub(super) most: usize,
-    /// How far curves may move.
+    pub(super) most_degree: Option<usize>,
+    /// How far curves may move that get a lower degree or a float polygon.
     pub(super) tolerance: Option<f64>,
+    /// Whether to write what cannot be read back.
+    pub(super) force: bool,
 }
 
-impl Lowering {
-    /// Approximate the curves of higher degrees, and tell how far each of them moves.
-    fn of(self, document: &Document) -> anyhow::Result<Document> {
-        let Self { most, tolerance } = self;
-        let (lower, told) = lowered(document, most, tolerance, &Progress::default())?;
+impl Conversion {
+    /// Make float polygons of references and lower degrees, and tell how far each curve moves.
+    fn of(&self, document: Document) -> anyhow::Result<Document> {
+        let document = match self.to_float {
+            false => document,
+            true => {
+                let wish = FloatWish {
+                    degree: None,
+                    tolerance: self.tolerance,
+                };
+                let (made, told) = floated(&document, wish, &Progress::default())?;
+                told.iter().for_each(|line| output::message(line));
+                made
+            }
+        };
+        let Some(most) = self.most_degree else {
+            return Ok(document);
+        };
+        let (lower, told) = lowered(&document, most, self.tolerance, &Progress::default())?;
         for it in told {
             let within = match it.is_within {
                 true => "",
@@ -56,22 +78,17 @@ impl Lowering {
 pub(super) fn convert(
     source: &Source,
     destination: &Destination,
-    polygon: Option<PolygonKind>,
-    assumed_unit: Option<LengthUnit>,
-    lowering: Option<Lowering>,
-    force: bool,
+    conversion: &Conversion,
 ) -> anyhow::Result<()> {
+    let Conversion { polygon, force, .. } = *conversion;
     if destination.is(source) {
         bail!(
             "{}: a file is not converted into itself",
             destination.name()
         );
     }
-    let document = source.document(assumed_unit, &Messages::Printed)?;
-    let document = match lowering {
-        Some(lowering) => lowering.of(&document).with_context(|| source.name())?,
-        None => document,
-    };
+    let document = source.document(conversion.assumed_unit, &Messages::Printed)?;
+    let document = conversion.of(document).with_context(|| source.name())?;
     let (export, format) = exported(&document, destination, polygon)?;
     // A float polygon is read back as it is.
     let is_converted = polygon.is_some_and(|kind| kind != PolygonKind::Float);

@@ -3,11 +3,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
+use anyhow::{Context, anyhow};
 
 use super::output::{self, Messages};
 use crate::document::Document;
 use crate::geometry::expressions::LengthUnit;
+use crate::io::exchange::import::ImportFilter;
 use crate::io::{
     ColumnChoice, Export, FileError, FileProblem, Format, FormatError, Problem, ReadError, Reading,
     disk, formats, shown_path,
@@ -24,6 +25,8 @@ pub(super) struct Source {
     format: Option<&'static Format>,
     /// The columns of points in a table.
     columns: Option<ColumnChoice>,
+    /// What is taken of a drawing; without it what is free.
+    filter: Option<ImportFilter>,
 }
 
 impl Source {
@@ -39,7 +42,27 @@ impl Source {
             path,
             format,
             columns,
+            filter: None,
         })
+    }
+
+    /// Take of a drawing only what a filter chooses.
+    pub(super) fn choosing(self, filter: ImportFilter) -> Self {
+        let filter = Some(filter).filter(|filter| *filter != ImportFilter::default());
+        Self { filter, ..self }
+    }
+
+    /// Read what the filter chooses of a drawing.
+    fn chosen(&self, filter: &ImportFilter) -> anyhow::Result<Reading> {
+        let drawing = match (&self.path, self.format) {
+            (None, Some(format)) => disk::draw_stream(io::stdin().lock(), &self.name(), format)?,
+            (path, format) => {
+                let path = path.as_deref().unwrap_or(Path::new(STANDARD));
+                disk::draw_file(path, format)?.0
+            }
+        };
+        let choice = drawing.found().matching(filter);
+        Ok(drawing.reading_of(&choice.with_context(|| self.name())?))
     }
 
     /// Read it, and tell its remarks.
@@ -47,6 +70,11 @@ impl Source {
     /// # Errors
     /// [`FileError`], naming the source and the place in it.
     pub(super) fn read(&self, messages: &Messages) -> anyhow::Result<Reading> {
+        if let Some(filter) = &self.filter {
+            let reading = self.chosen(filter)?;
+            messages.report(&self.name(), &reading.remarks);
+            return Ok(reading);
+        }
         let columns = self.columns.as_ref();
         let reading = match (&self.path, self.format) {
             (None, Some(format)) => {

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::output;
 use crate::geometry::expressions::LengthUnit;
 use crate::io::exchange::drawing::{Drawing, Item, Shape, Space};
+use crate::io::exchange::import::FoundRow;
 use crate::io::{Format, disk, json_layout};
 
 /// The names of units that Batten itself does not have, by their millimetres.
@@ -38,6 +39,7 @@ pub(super) struct Listed {
 struct List {
     format: &'static str,
     unit: Option<String>,
+    rows: Vec<ListedRow>,
     items: Vec<ListedItem>,
     other: Vec<ListedOther>,
     remarks: Vec<String>,
@@ -60,39 +62,80 @@ struct ListedItem {
     curve: bool,
 }
 
+/// The items of one kind on one layer.
+#[derive(Serialize)]
+struct ListedRow {
+    layer: String,
+    kind: &'static str,
+    count: usize,
+    degrees: Vec<usize>,
+    rational: usize,
+    periodic: usize,
+    /// The corners of the box around them, in the unit of the file.
+    bounds: Option<[[f64; 3]; 2]>,
+}
+
 #[derive(Serialize)]
 struct ListedOther {
     kind: String,
     count: usize,
+    /// The line or, of a binary file, the byte of the first.
+    at: u64,
 }
 
 /// Print what a file holds.
 ///
 /// # Errors
 /// If nothing in it can be read, with the place.
-pub(super) fn run(file: &Path, format: Option<&Format>, listed: Listed) -> anyhow::Result<()> {
+pub(super) fn run(
+    file: &Path,
+    format: Option<&'static Format>,
+    listed: Listed,
+) -> anyhow::Result<()> {
     let (drawing, format) = disk::draw_file(file, format)?;
-    output::print(&json_layout::to_text(&List::of(drawing, format, listed)))
+    output::print(&json_layout::to_text(&List::of(
+        drawing,
+        format.name,
+        listed,
+    )))
 }
 
 impl List {
     fn of(drawing: Drawing, format: &'static str, listed: Listed) -> Self {
-        let is_listed = |item: &&Item| match item.space {
+        let is_listed = |space: Space| match space {
             Space::Model => true,
             Space::Paper => listed.paper,
             Space::Edge => listed.edges,
         };
-        let items = drawing.items.iter().filter(is_listed);
+        let items = drawing.items.iter().filter(|item| is_listed(item.space));
+        let found = drawing.found();
+        let rows = found.rows.iter().filter(|row| is_listed(row.key.space));
         let others = drawing.other.iter().map(|other| ListedOther {
             kind: other.kind.clone(),
             count: other.count,
+            at: other.at,
         });
         Self {
             format,
             unit: drawing.unit.map(unit_name),
+            rows: rows.map(ListedRow::of).collect(),
             items: items.map(ListedItem::of).collect(),
             other: others.collect(),
             remarks: drawing.remarks,
+        }
+    }
+}
+
+impl ListedRow {
+    fn of(row: &FoundRow) -> Self {
+        Self {
+            layer: row.key.layer.join("/"),
+            kind: row.key.kind.name(),
+            count: row.count,
+            degrees: row.degrees.clone(),
+            rational: row.rational,
+            periodic: row.periodic,
+            bounds: row.bounds.map(|corners| corners.map(|it| it.to_array())),
         }
     }
 }

@@ -5,6 +5,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use crate::geometry::expressions::{LengthUnit, NumberContext};
 use crate::geometry::{PolygonKind, Spacing};
 use crate::io::examples::{EXAMPLES, Example};
+use crate::io::exchange::drawing::Kind;
 use crate::io::{ColumnChoice, Format, formats};
 
 /// The most points that are written, and the most threads that may be asked for.
@@ -75,6 +76,14 @@ pub(super) fn polygon_parser() -> impl TypedValueParser<Value = PolygonKind> {
 pub(super) fn unit_parser() -> impl TypedValueParser<Value = LengthUnit> {
     let symbols = PossibleValuesParser::new(LengthUnit::ALL.map(LengthUnit::symbol));
     symbols.try_map(|symbol| LengthUnit::of_symbol(&symbol).ok_or("no such unit"))
+}
+
+pub(super) fn kind_parser() -> impl TypedValueParser<Value = Kind> {
+    let names = PossibleValuesParser::new(Kind::ALL.map(Kind::name));
+    names.try_map(|name| {
+        let mut all = Kind::ALL.into_iter();
+        all.find(|kind| kind.name() == name).ok_or("no such kind")
+    })
 }
 
 pub(super) fn parameter(text: &str) -> Result<f64, String> {

@@ -24,8 +24,8 @@ pub use hand::{
     Modifiers, ToolKind, ToolRow, Transformation,
 };
 pub use jobs::edited_file::EditedFile;
-pub use jobs::file_reading::{ColumnQuestion, FileAnswer};
-pub use jobs::filing::{FileReply, Filing};
+pub use jobs::file_reading::{ColumnQuestion, FileAnswer, FoundFile, ImportQuestion};
+pub use jobs::filing::{FileReply, Filing, is_project};
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, Recovery, with_extension};
 pub use operating::{FittedPoints, Operating, OperationInProgress, Run};
 pub use reply::{Message, Note, Refusal, Reply, told};

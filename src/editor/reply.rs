@@ -22,6 +22,8 @@ pub struct Note {
     pub offers_undo: bool,
     /// Whether it tells of something that the user may not want.
     pub warns: bool,
+    /// Whether the message offers to choose anew what came in.
+    pub offers_choice: bool,
 }
 
 impl Note {
@@ -44,6 +46,14 @@ impl Note {
             text: text.into(),
             offers_undo: true,
             ..Self::default()
+        }
+    }
+
+    /// The same note, with the offer to choose anew what came in, if there is something to choose from.
+    pub(in crate::editor) fn offering_choice(self, offers_choice: bool) -> Self {
+        Self {
+            offers_choice,
+            ..self
         }
     }
 }
@@ -95,6 +105,8 @@ pub struct Message {
     pub offers_undo: bool,
     /// Whether it offers to reload the document's file.
     pub offers_reload: bool,
+    /// Whether it offers to choose anew what came in.
+    pub offers_choice: bool,
     /// Whether it tells of a failed update of the preview: the next success takes it away.
     pub(in crate::editor) of_update: bool,
 }
@@ -111,6 +123,7 @@ impl Message {
             is_error,
             warns: note.warns,
             offers_undo: note.offers_undo,
+            offers_choice: note.offers_choice,
             offers_reload: false,
             of_update: false,
         })
@@ -134,6 +147,7 @@ impl Message {
             is_error: false,
             warns: false,
             offers_undo: false,
+            offers_choice: false,
             offers_reload: true,
             of_update: false,
         }

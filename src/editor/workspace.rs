@@ -24,6 +24,8 @@ pub struct Workspace {
     revision: u64,
     /// The number of documents that were opened before.
     opening: u64,
+    /// Whether the document is one that the program itself offered.
+    is_offered: bool,
 }
 
 /// The identity of a preview.
@@ -107,6 +109,17 @@ impl Workspace {
         let history = &self.history;
         let has_steps = history.undo_steps() > 0 || history.redo_label().is_some();
         self.path.is_none() && self.preview.is_none() && !has_steps && !self.is_modified()
+    }
+
+    /// Note that the document is one that the program itself offered, such as an example.
+    pub fn mark_offered(&mut self) {
+        self.is_offered = true;
+    }
+
+    /// Whether the user has made nothing yet: the document is empty, or was offered and is as it was.
+    pub fn has_nothing_to_keep(&self) -> bool {
+        let is_empty = self.settled().is_empty() && self.path.is_none();
+        (is_empty || self.is_offered) && self.is_as_opened()
     }
 
     /// A number that grows with every step, undo and redo.

@@ -60,20 +60,30 @@ pub fn read_with_fingerprint(
     Ok((reading, Fingerprint::of(&bytes)))
 }
 
-/// Read everything that a file of another program holds, with the name of its format; `format` is one that is given,
-/// whatever the name.
+/// Read everything that a file of another program holds, with its format; `format` is one that is given, whatever the
+/// name.
 ///
 /// # Errors
 /// As [`read_file`], also for formats that are no drawings.
 pub fn draw_file(
     path: &Path,
-    format: Option<&Format>,
-) -> Result<(Drawing, &'static str), FileError> {
+    format: Option<&'static Format>,
+) -> Result<(Drawing, &'static Format), FileError> {
     let format = format.map_or_else(|| formats::to_read(path), Ok);
     let format = format.map_err(FileError::at(path))?;
     let bytes = read_bytes(path).map_err(FileError::at(path))?;
     let drawing = format.draw(&bytes).map_err(FileError::at(path))?;
-    Ok((drawing, format.name))
+    Ok((drawing, format))
+}
+
+/// Read everything that a stream of another program's format holds; `name` is what messages call it.
+///
+/// # Errors
+/// As [`read_stream`], also for formats that are no drawings.
+pub fn draw_stream(stream: impl Read, name: &str, format: &Format) -> Result<Drawing, FileError> {
+    let name = Path::new(name);
+    let bytes = limited_bytes(stream, MOST_BYTES).map_err(FileError::at(name))?;
+    format.draw(&bytes).map_err(FileError::at(name))
 }
 
 /// The fingerprint of what a file holds now; `None` if there is no such file, or it cannot be read.

@@ -31,6 +31,8 @@ pub struct Format {
     /// Writes a document back to a file that was read, where that differs from `write`: without what an export adds
     /// beside the curves.
     pub(super) write_back: Option<WriteDocument>,
+    /// Whether its lengths have no unit at all, as in glyphs.
+    pub(super) is_unitless: bool,
     /// Whether it holds matches and unknown keys; then a document can be saved in it.
     pub holds_documents: bool,
     /// The exports that the menu offers.
@@ -116,15 +118,20 @@ impl Format {
     /// [`ReadError`] with the place if nothing can be read, or if the format has no drawings.
     pub fn draw(&self, bytes: &[u8]) -> Result<Drawing, ReadError> {
         let draw = self.draw.ok_or(Problem::NoDrawing(self.name))?;
-        draw(bytes).map_err(|Unreadable { at, reason }| {
-            // Binary files have no lines.
-            let is_binary = bytes.iter().take(TOLD_BY).any(|byte| *byte == 0);
-            match (at, is_binary) {
+        // Binary files have no lines.
+        let is_binary = bytes.iter().take(TOLD_BY).any(|byte| *byte == 0);
+        match draw(bytes) {
+            Ok(drawing) => Ok(Drawing {
+                is_binary,
+                is_unitless: self.is_unitless,
+                ..drawing
+            }),
+            Err(Unreadable { at, reason }) => Err(match (at, is_binary) {
                 (Some(at), false) => Place::line(at as usize).problem(Problem::Drawing(reason)),
                 (Some(at), true) => Problem::Drawing(format!("byte {at}: {reason}")).into(),
                 (None, _) => Problem::Drawing(reason).into(),
-            }
-        })
+            }),
+        }
     }
 
     /// Whether its files are drawings of other programs.

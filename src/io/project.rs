@@ -39,6 +39,7 @@ pub static PROJECT: Format = Format {
     write_back: None,
     read_chosen: None,
     draw: None,
+    is_unitless: false,
     holds_documents: true,
     exports: &[],
 };

@@ -21,6 +21,8 @@ pub enum Action {
     OpenExample(usize),
     /// Add the curves of a file to the document.
     Import,
+    /// Choose anew what is taken of the files that came in last.
+    ChooseImport,
     /// Save under the present path.
     Save,
     /// Save under another path.
@@ -76,6 +78,7 @@ impl Action {
             Self::New,
             Self::Open,
             Self::Import,
+            Self::ChooseImport,
             Self::Save,
             Self::SaveAs,
             Self::Reload,
@@ -108,6 +111,7 @@ impl Action {
             Self::Open => "Open…",
             Self::OpenExample(index) => EXAMPLES.get(index).map_or("", |example| example.title),
             Self::Import => "Import curves…",
+            Self::ChooseImport => "Choose imported…",
             Self::Save => "Save",
             Self::SaveAs => "Save as…",
             Self::Reload => "Reload",
@@ -166,6 +170,7 @@ impl Action {
             Self::Import => "Add the curves of a file to this document",
             Self::Save => "Save the document to its file",
             Self::SaveAs => "Save the document to another file",
+            Self::ChooseImport => "Choose anew what is taken of the drawing that came in last",
             Self::Reload => "Read the file again from disk; Undo brings your changes back",
             Self::Export(exporter) => exporter.row.help,
             Self::Quit => "Quit Batten",
@@ -215,6 +220,7 @@ impl Action {
             Self::Keys => Shortcut::plain(Key::Function(1)),
             Self::OpenExample(_)
             | Self::Reload
+            | Self::ChooseImport
             | Self::NormaliseLength
             | Self::ToggleToolNames
             | Self::NudgeStep
@@ -229,6 +235,7 @@ impl Action {
         matches!(
             self,
             Self::Import
+                | Self::ChooseImport
                 | Self::SaveAs
                 | Self::Export(_)
                 | Self::NudgeStep
@@ -245,6 +252,7 @@ impl Action {
             Self::Command(command) => command.is_enabled(editor),
             Self::Export(_) => !editor.document().is_empty(),
             Self::Reload => editor.workspace().path().is_some(),
+            Self::ChooseImport => editor.filing().has_imported(),
             Self::Cut | Self::Copy | Self::Rename => editor.active().is_some(),
             _ => true,
         }

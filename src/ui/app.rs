@@ -14,6 +14,7 @@ use super::document_unit;
 use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
 use super::help::{self, Help, Topic};
+use super::import_panel::{ImportAnswer, ImportPanel};
 use super::keyboard::{self, KeyCommand, Keyboard, Typing};
 use super::layer_strip::layer_strip_ui;
 use super::menu::menu_ui;
@@ -31,7 +32,7 @@ use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{
     Command, CurvatureDisplay, DrawSettings, DrawWay, Editor, FileAnswer, Layer, MenuOf,
-    MenuSubject, Refusal, Reply, ToolKind, told,
+    MenuSubject, Refusal, Reply, ToolKind, is_project, told,
 };
 
 use crate::io::{Exporter, PROJECT, formats};
@@ -56,6 +57,7 @@ pub struct App {
     /// The request for files whose reply is not there.
     requested: Option<Requested>,
     dialog: Option<Dialog>,
+    import: ImportPanel,
     /// Actions that wait for the end of the frame.
     actions: Vec<Action>,
     /// The title that the window has now.
@@ -126,6 +128,7 @@ impl App {
             files: FileDialogs::new(native_dialogs),
             requested: None,
             dialog: None,
+            import: ImportPanel::default(),
             actions: Vec::new(),
             title: String::new(),
             leaving: false,
@@ -239,7 +242,7 @@ impl App {
         });
         match dropped.as_slice() {
             [] => {}
-            [one] if formats::to_read(one).is_ok_and(|format| format.holds_documents) => {
+            [one] if is_project(one) => {
                 self.confirm(context, AfterDiscard::OpenFile(one.clone()));
             }
             several => told(self.editor.import(several)),
@@ -365,6 +368,15 @@ impl App {
         {
             told(self.editor.answer_files(answer.map(FileAnswer::Columns)));
         }
+        let question = self.editor.filing().import_question();
+        let unit = self.editor.document().unit();
+        match self.import.show(context, question, unit) {
+            Some(ImportAnswer::Cancel) => told(self.editor.answer_files(None)),
+            Some(ImportAnswer::Take(choices)) => {
+                told(self.editor.answer_files(Some(FileAnswer::Import(choices))));
+            }
+            None => {}
+        }
         let canvas = self.canvas.rect().unwrap_or(context.content_rect());
         match recovery::recovery_ui(context, canvas, self.editor.recovery().recoverable()) {
             Some(Choice::Open(id)) => self.confirm(context, AfterDiscard::Recover(id)),
@@ -397,7 +409,11 @@ impl App {
                 told(self.editor.execute(command));
             }
             Action::New => self.confirm(context, AfterDiscard::New),
-            Action::Open => self.confirm(context, AfterDiscard::Open),
+            Action::Open => {
+                self.editor.interrupt();
+                self.files.ask(context, Purpose::Open, self.folder());
+            }
+            Action::ChooseImport => told(self.editor.choose_import()),
             Action::OpenExample(index) => self.confirm(context, AfterDiscard::OpenExample(index)),
             Action::Paper => self.confirm(context, AfterDiscard::OpenPaper(self.paper.page())),
             Action::Quit => self.confirm(context, AfterDiscard::Quit),
@@ -440,7 +456,6 @@ impl App {
     fn go_on(&mut self, context: &Context, after: AfterDiscard) {
         match after {
             AfterDiscard::New => self.editor.begin_empty(),
-            AfterDiscard::Open => self.files.ask(context, Purpose::Open, self.folder()),
             AfterDiscard::OpenFile(path) => told(self.editor.open(&[path])),
             AfterDiscard::Recover(id) => told(self.editor.recover(id)),
             AfterDiscard::OpenExample(index) => told(self.editor.open_example(index)),
@@ -531,6 +546,11 @@ impl App {
         let Some(path) = paths.first().cloned() else {
             return;
         };
+        if purpose == Purpose::Open && is_project(&path) && self.editor.workspace().is_modified() {
+            // Anything else is added.
+            self.confirm(context, AfterDiscard::OpenFile(path));
+            return;
+        }
         let requested = Requested {
             purpose: purpose.clone(),
             path,

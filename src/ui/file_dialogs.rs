@@ -25,8 +25,6 @@ const UNAVAILABLE: Duration = Duration::from_millis(250);
 pub enum AfterDiscard {
     /// Begin an empty document.
     New,
-    /// Ask for a file to open.
-    Open,
     /// Open this file.
     OpenFile(PathBuf),
     /// Open a recovered document.
@@ -42,7 +40,7 @@ pub enum AfterDiscard {
 /// The purpose of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Purpose {
-    /// To open in place of the document.
+    /// To open: a project in place of the document.
     Open,
     /// To add its curves.
     Import,

@@ -49,6 +49,8 @@ pub enum Topic {
     StatusBar,
     /// The tour of the paper.
     Paper,
+    /// The import panel.
+    Import,
 }
 
 impl Topic {
@@ -72,6 +74,7 @@ impl Topic {
             Self::Plots => "plots.md",
             Self::Harmony => "harmony.md",
             Self::Paper => "start.md#try-the-examples",
+            Self::Import => "files.md#import",
         };
         link.to_owned()
     }

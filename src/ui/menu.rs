@@ -175,6 +175,7 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         Item(Action::New),
         Item(Action::Open),
         Item(Action::Import),
+        Item(Action::ChooseImport),
         examples(),
         Divider,
         Item(Action::Save),

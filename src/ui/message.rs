@@ -51,9 +51,13 @@ pub fn message_ui(
                 ui.add_space(0.0);
                 ui.label(icons::text(icon).color(colour));
                 ui.vertical(|ui| {
-                    let offers = message.offers_undo || message.offers_reload;
-                    let buttons = if offers { 32.0 } else { 18.0 };
-                    ui.set_max_width(width - buttons * STEP);
+                    let offers = [
+                        message.offers_undo,
+                        message.offers_reload,
+                        message.offers_choice,
+                    ];
+                    let buttons = offers.into_iter().filter(|it| *it).count();
+                    ui.set_max_width(width - (18.0 + 14.0 * buttons as f32) * STEP);
                     let text = RichText::new(sentence(&message.text)).color(tokens.text);
                     ui.add(Label::new(text).wrap().selectable(true));
                 });
@@ -62,6 +66,9 @@ pub fn message_ui(
                 }
                 if message.offers_reload && ui.small_button("Reload").clicked() {
                     commands.push(Action::Reload);
+                }
+                if message.offers_choice && ui.small_button("Choose…").clicked() {
+                    commands.push(Action::ChooseImport);
                 }
                 IconButton::new(Icon::X, "Dismiss message")
                     .size(5.0 * STEP)

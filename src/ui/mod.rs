@@ -37,6 +37,7 @@ mod guides;
 mod harmony_list;
 mod help;
 mod icons;
+mod import_panel;
 mod inspector;
 mod key_list;
 mod key_order;

@@ -264,7 +264,8 @@ fn files_in_several_units_are_imported_in_that_of_the_document() {
     );
     editor.execute(Command::Undo).expect("one step");
     assert_eq!(widths(&editor), (vec![2.0], MM));
-    // Opened together, the first file states the unit.
+    // Several are added, even when they are opened; in an empty document the first one states the unit.
+    let mut editor = Editor::default();
     editor
         .open(&[inch.clone(), project_in(&folder, "b.batten", MM)])
         .expect("curves");

@@ -2,6 +2,8 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/drawings.rs"]
+mod drawings;
 
 mod approximating;
 mod autosaving;
@@ -26,6 +28,7 @@ mod generating;
 mod grouping;
 mod guides;
 mod harmony;
+mod importing;
 mod joining;
 mod keep_shape;
 mod keeping;

@@ -99,9 +99,8 @@ fn typing_replaces_the_name_that_is_proposed_for_a_file() {
 }
 
 /// What would lose unsaved changes, in the menus.
-const LOSING: [&[&str]; 4] = [
+const LOSING: [&[&str]; 3] = [
     &["File", "New"],
-    &["File", "Open…"],
     &["File", "Examples", "Waterline"],
     &["File", "Quit"],
 ];
@@ -132,6 +131,31 @@ fn nothing_is_asked_about_when_nothing_is_unsaved() {
         choose(&mut window, path);
         assert!(!is_asked(&window), "{path:?}");
     }
+}
+
+#[test]
+fn opening_asks_about_changes_once_a_project_is_chosen() {
+    let mut window = open_window();
+    let from = vertex(&window, 4);
+    drag(&mut window, from, from + BY);
+    let changed = curve(&window);
+    let folder = tempfile::tempdir().expect("a folder");
+    let project = folder.path().join("line.batten");
+    let document = Document::from_curves([curve(&open_window())]);
+    disk::write_document(&project, &document, None).expect("the file");
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    assert!(!is_asked(&window), "nothing is chosen yet");
+    answer(&mut window, &project);
+    assert!(is_asked(&window));
+    click(&mut window, "Cancel");
+    assert_eq!(curve(&window), changed);
+    // What is no project is added: nothing is lost.
+    let table = folder.path().join("line.csv");
+    std::fs::write(&table, "# degree=1\nx,y\n0,0\n1,2\n").expect("the file");
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    answer(&mut window, &table);
+    assert!(!is_asked(&window));
+    assert_eq!(window.state().editor().document().len(), 2);
 }
 
 #[test]
@@ -326,7 +350,7 @@ impl DroppedFile for Dropped {
     }
 }
 
-fn drop_file(window: &mut Window, path: &Path) {
+pub fn drop_file(window: &mut Window, path: &Path) {
     let file = Arc::new(Dropped(path.to_owned()));
     window.input_mut().dropped_files.push(file);
     window.run();

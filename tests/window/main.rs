@@ -4,6 +4,8 @@
 mod canvas;
 mod crowds;
 mod drawing;
+#[path = "../common/drawings.rs"]
+mod drawings;
 mod editing;
 mod expressions;
 mod fields;
@@ -14,6 +16,7 @@ mod grouping;
 mod hand;
 mod harmony;
 mod help;
+mod importing;
 mod inspecting;
 mod locking;
 mod matching;

@@ -40,6 +40,7 @@ impl Editor {
             let incoming = Incoming {
                 purpose,
                 documents: vec![read],
+                files: None,
             };
             self.merge(incoming, None)
         });

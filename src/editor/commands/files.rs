@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Document, Edit};
 use crate::editor::Editor;
-use crate::editor::jobs::file_reading::Purpose;
+use crate::editor::jobs::file_reading::{FilesToRead, Purpose};
 use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork, Filing};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::view::{Look, Viewport};
@@ -19,8 +19,9 @@ impl Editor {
         self.replace(Document::default().with_unit(unit), None);
     }
 
-    /// Open files as one document in place of the present one; none leaves it as it is. Only a
-    /// single project is saved back to its file, with its unknown keys, and the file that [`Filing::edit`] names.
+    /// Open files; none leaves the document as it is. A single project replaces it, and any other file where there is
+    /// nothing to keep; otherwise files are added. Only a single project is saved back to its file, with its unknown
+    /// keys, and the file that [`Filing::edit`] names.
     ///
     /// The message shows the reply of this and of the other functions on files. A task that takes longer
     /// than a frame continues beside it: then the reply is a note of that, and
@@ -32,8 +33,8 @@ impl Editor {
         if paths.is_empty() {
             return Ok(Note::silent());
         }
-        let purpose = self.filing.purpose_of(paths);
-        self.start_file_task(FileTask::read(paths, purpose))
+        let purpose = self.filing.purpose_of(paths, &self.workspace);
+        self.start_file_task(FileTask::Read(FilesToRead::new(paths, purpose)))
     }
 
     /// Open a document that was made elsewhere in place of the present one. The message shows a refusal.
@@ -57,6 +58,7 @@ impl Editor {
         let reply = example.map_err(Refusal::from).and_then(|example| {
             let reading = example.read().map_err(|error| error.to_string())?;
             self.replace(reading.into_document()?, None);
+            self.workspace.mark_offered();
             let (title, description) = (example.title, example.description);
             Ok(Note::told(format!("{title}: {description}")))
         });
@@ -79,7 +81,28 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if a file cannot be read; nothing is changed then.
     pub fn import(&mut self, paths: &[PathBuf]) -> Reply {
-        self.start_file_task(FileTask::read(paths, Purpose::Import))
+        self.start_file_task(FileTask::Read(FilesToRead::new(paths, Purpose::Import)))
+    }
+
+    /// Ask again what to take of the files of other programs that came in last. What they made is taken back when the
+    /// answer comes, unless something else was done since.
+    ///
+    /// # Errors
+    /// [`Refusal`] if there are none, or they cannot be read.
+    pub fn choose_import(&mut self) -> Reply {
+        let is_last = |files: &FilesToRead| files.retakes == Some(self.workspace.revision());
+        match self.filing.imported.clone() {
+            Some(files) => self.start_file_task(FileTask::Read(FilesToRead {
+                asks: true,
+                // What was done since would be lost with the document.
+                purpose: match is_last(&files) {
+                    true => files.purpose,
+                    false => Purpose::Import,
+                },
+                ..files
+            })),
+            None => self.tell(Err(Refusal::from("Nothing came in to choose from"))),
+        }
     }
 
     /// Save the document without the preview, which goes on.
@@ -187,11 +210,12 @@ impl Editor {
                 document,
                 own,
                 text,
+                file,
             } => {
                 let (path, fingerprint) = own.unzip();
                 self.replace(document, path);
                 self.workspace.set_fingerprint(fingerprint);
-                Ok(Note::told(text))
+                Ok(self.imported(file, Note::told(text)))
             }
             FileResult::Reloaded {
                 document,
@@ -206,6 +230,10 @@ impl Editor {
             FileResult::Read(incoming) => self.merge(incoming, None),
             FileResult::Asked(question) => {
                 self.filing.column_question = Some(question);
+                Ok(Note::silent())
+            }
+            FileResult::AskedImport(question) => {
+                self.filing.import_question = Some(question);
                 Ok(Note::silent())
             }
             FileResult::Saved {
@@ -236,6 +264,17 @@ impl Editor {
         }
     }
 
+    /// Keep the files of other programs that came in, and let the note offer to choose from them anew.
+    pub(in crate::editor) fn imported(&mut self, files: Option<FilesToRead>, note: Note) -> Note {
+        let note = note.offering_choice(files.is_some());
+        self.filing.imported = files.map(|files| FilesToRead {
+            retakes: Some(self.workspace.revision()),
+            asks: false,
+            ..files
+        });
+        note
+    }
+
     /// Make edits that add items as one step, and make the first of them active.
     pub(in crate::editor) fn add(&mut self, label: &str, edits: Vec<Edit>) -> Reply {
         let first = self.document().next_id();
@@ -252,6 +291,7 @@ impl Editor {
         self.interrupt();
         self.filing.question = None;
         self.filing.column_question = None;
+        self.filing.import_question = None;
         self.workspace.replace(document, path);
         self.hand.begin_document();
         self.view.compare_nothing();

@@ -18,22 +18,35 @@ struct Merged {
 }
 
 impl Editor {
-    /// Answer the question of files for the document's unit or a table's columns; `None` adds nothing. The
-    /// message shows the reply.
+    /// Answer the question of files for the document's unit, a table's columns or what is taken of other programs'
+    /// files; `None` adds nothing. The message shows the reply.
     ///
     /// # Errors
     /// [`Refusal`] if the files cannot be read or added; nothing is changed then.
     pub fn answer_files(&mut self, answer: Option<FileAnswer>) -> Reply {
         let filing = &mut self.filing;
-        let questions = (filing.question.take(), filing.column_question.take());
-        let reply = match (answer, questions) {
-            (Some(FileAnswer::Unit(unit)), (Some(question), _)) => {
+        let (unit, columns) = (filing.question.take(), filing.column_question.take());
+        let import = filing.import_question.take();
+        let reply = match (answer, unit, columns, import) {
+            (Some(FileAnswer::Unit(unit)), Some(question), ..) => {
                 self.merge(question.waiting, Some(unit))
             }
-            (Some(FileAnswer::Columns(choice)), (_, Some(question))) => {
+            (Some(FileAnswer::Columns(choice)), _, Some(question), _) => {
                 let mut files = question.waiting;
                 files.answers.push((question.columns, choice));
                 return self.start_file_task(FileTask::Read(files));
+            }
+            (Some(FileAnswer::Import(choices)), .., Some(question)) => {
+                let mut files = question.waiting;
+                let paths = question.files.into_iter().map(|file| file.path);
+                files.choices.extend(paths.zip(choices));
+                files.asks = false;
+                return self.start_file_task(FileTask::Read(files));
+            }
+            (None, Some(question), ..) if question.has_retaken => {
+                self.workspace.redo();
+                self.document_changed();
+                Ok(Note::silent())
             }
             _ => Ok(Note::silent()),
         };
@@ -47,6 +60,14 @@ impl Editor {
         assumed: Option<LengthUnit>,
     ) -> Reply {
         self.interrupt();
+        let retakes = incoming.files.as_ref().and_then(|files| files.retakes);
+        let has_retaken =
+            retakes == Some(self.workspace.revision()) && incoming.purpose == Purpose::Import;
+        if has_retaken {
+            // The same files come in anew.
+            self.workspace.undo();
+            self.document_changed();
+        }
         let receiving = match incoming.purpose {
             Purpose::Open | Purpose::Edit => Document::default(),
             Purpose::Import | Purpose::Paste => self.document().clone(),
@@ -56,6 +77,7 @@ impl Editor {
                 self.filing.question = Some(UnitQuestion {
                     incoming: unit,
                     waiting: incoming,
+                    has_retaken,
                 });
                 return Ok(Note::silent());
             }
@@ -74,12 +96,14 @@ impl Editor {
                 self.replace(merged.document, None);
                 let files = incoming.documents.len();
                 let text = format!("{counted} read from {files} files");
-                Ok(Note::told(with_lines(text, &lines)))
+                let note = Note::told(with_lines(text, &lines));
+                Ok(self.imported(incoming.files, note))
             }
             Purpose::Import => {
                 self.add("Import curves", merged.edits)?;
                 self.look(Look::All);
-                Ok(Note::done(with_lines(format!("{counted} added"), &lines)))
+                let note = Note::done(with_lines(format!("{counted} added"), &lines));
+                Ok(self.imported(incoming.files, note))
             }
             Purpose::Paste => {
                 // Matches are not pasted.

@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 use super::Client;
 use super::autosaving::Autosaver;
 use super::edited_file::EditedFile;
-use super::file_reading::{ColumnQuestion, FilesToRead, Purpose, Unread};
+use super::file_reading::{ColumnQuestion, FilesToRead, ImportQuestion, Purpose, ReadFile, Unread};
 use super::patience::Patience;
 use crate::document::{Curve, Document, Reference, quoted};
 use crate::editor::reply::{Refusal, Reply, with_lines};
 use crate::editor::workspace::Workspace;
 use crate::geometry::counted;
 use crate::geometry::expressions::LengthUnit;
-use crate::io::{Exporter, FileError, Fingerprint, PROJECT, disk, formats, shown_path};
+use crate::io::{
+    Exporter, FileError, Fingerprint, PROJECT, counted_items, disk, formats, shown_path,
+};
 
 /// Read and write files, and watch the document's own file.
 #[derive(Debug, Default)]
@@ -28,6 +30,10 @@ pub struct Filing {
     pub(in crate::editor) question: Option<UnitQuestion>,
     /// Files that wait for the columns of a table.
     pub(in crate::editor) column_question: Option<Box<ColumnQuestion>>,
+    /// Files of other programs that wait for what is taken of them.
+    pub(in crate::editor) import_question: Option<Box<ImportQuestion>>,
+    /// The files of other programs that came in last, to be chosen anew.
+    pub(in crate::editor) imported: Option<FilesToRead>,
 }
 
 /// A task that is not finished.
@@ -77,6 +83,8 @@ pub(in crate::editor) enum FileResult {
         /// The file that the document is saved back to.
         own: Option<(PathBuf, Fingerprint)>,
         text: String,
+        /// The file of another program that it was read from, to be chosen anew.
+        file: Option<FilesToRead>,
     },
     Reloaded {
         document: Document,
@@ -87,6 +95,8 @@ pub(in crate::editor) enum FileResult {
     Read(Incoming),
     /// A table whose columns must be chosen first.
     Asked(Box<ColumnQuestion>),
+    /// Files of other programs of which must be chosen first what is taken.
+    AskedImport(Box<ImportQuestion>),
     Saved {
         path: PathBuf,
         document: Document,
@@ -107,6 +117,8 @@ pub(in crate::editor) enum FileResult {
 pub(in crate::editor) struct Incoming {
     pub purpose: Purpose,
     pub documents: Vec<ReadDocument>,
+    /// The files of other programs among their files, to be chosen anew.
+    pub files: Option<FilesToRead>,
 }
 
 /// A document that was read, with the remarks on it.
@@ -136,6 +148,8 @@ pub struct UnitQuestion {
     pub incoming: LengthUnit,
     /// The documents to add.
     pub waiting: Incoming,
+    /// Whether a step was taken back for them, which comes back if nothing is added.
+    pub has_retaken: bool,
 }
 
 impl Filing {
@@ -167,17 +181,35 @@ impl Filing {
         self.column_question.as_deref()
     }
 
+    /// The files of other programs that cannot be read until
+    /// [`Editor::answer_files`](crate::editor::Editor::answer_files) chooses what is taken.
+    pub fn import_question(&self) -> Option<&ImportQuestion> {
+        self.import_question.as_deref()
+    }
+
+    /// Whether files of other programs came in, to be chosen anew.
+    pub fn has_imported(&self) -> bool {
+        self.imported.is_some()
+    }
+
     /// Name the file that the program was started to edit: when it is opened, whatever its format, it becomes the
     /// document's own file.
     pub fn edit(&mut self, edited: EditedFile) {
         self.edited = Some(edited);
     }
 
-    /// The purpose of opening files.
-    pub(in crate::editor) fn purpose_of(&self, paths: &[PathBuf]) -> Purpose {
+    /// The purpose of opening files: a single project replaces the document, and so does anything where there is
+    /// nothing to keep. Other files are added.
+    pub(in crate::editor) fn purpose_of(
+        &self,
+        paths: &[PathBuf],
+        workspace: &Workspace,
+    ) -> Purpose {
         match (&self.edited, paths) {
             (Some(edited), [path]) if edited.path() == path => Purpose::Edit,
-            _ => Purpose::Open,
+            (_, [path]) if is_project(path) => Purpose::Open,
+            _ if workspace.has_nothing_to_keep() => Purpose::Open,
+            _ => Purpose::Import,
         }
     }
 
@@ -311,15 +343,6 @@ impl FileResult {
 }
 
 impl FileTask {
-    /// Read files for a purpose.
-    pub(in crate::editor) fn read(paths: &[PathBuf], purpose: Purpose) -> Self {
-        Self::Read(FilesToRead {
-            paths: paths.to_owned(),
-            purpose,
-            answers: Vec::new(),
-        })
-    }
-
     /// The text in the window while the task runs.
     fn text(&self) -> String {
         let name = |path: &Path| {
@@ -352,6 +375,7 @@ impl FileTask {
                 match read {
                     Ok(result) => Ok(result),
                     Err(Unread::Asked(question)) => Ok(FileResult::Asked(question)),
+                    Err(Unread::AskedImport(question)) => Ok(FileResult::AskedImport(question)),
                     Err(Unread::Refused(refusal)) => Err(refusal),
                 }
             }
@@ -380,10 +404,14 @@ fn open(
     path: &Path,
     autosaver: Option<&Autosaver>,
 ) -> Result<FileResult, Unread> {
-    let (mut reading, fingerprint) = files.read(path)?;
-    let text = format!("{} read from {}", reading.counted(), shown_path(path));
-    let remarks = std::mem::take(&mut reading.remarks);
-    let document = reading.into_document()?;
+    let drawings = files.drawings()?;
+    let ReadFile {
+        document,
+        fingerprint,
+        remarks,
+    } = files.read(path, &drawings)?;
+    let counted = counted_items(document.curves().count(), document.references().count());
+    let text = format!("{counted} read from {}", shown_path(path));
     let mut text = with_lines(text, &remarks);
     if document.has_extras() {
         text += "\nUnknown keys are kept when you save.";
@@ -398,8 +426,9 @@ fn open(
     let elsewhere = own.as_deref().map(|own| open_elsewhere(own, autosaver));
     Ok(FileResult::Opened {
         document,
-        own: own.map(|own| (own, fingerprint)),
+        own: own.zip(fingerprint),
         text: with_lines(text, &elsewhere.unwrap_or_default()),
+        file: (!drawings.is_empty()).then(|| files.clone()),
     })
 }
 
@@ -516,18 +545,22 @@ fn export_visible(
 
 /// Read several files, to be merged.
 fn read_all(files: &FilesToRead) -> Result<FileResult, Unread> {
+    let drawings = files.drawings()?;
     let documents = files.paths.iter().map(|path| {
-        let (mut reading, _) = files.read(path)?;
-        let remarks = std::mem::take(&mut reading.remarks).to_string();
+        let ReadFile {
+            document, remarks, ..
+        } = files.read(path, &drawings)?;
         Ok(ReadDocument {
-            document: reading.into_document()?,
+            document,
             name: format!("{}: ", shown_path(path)),
             remarks,
         })
     });
-    let documents = documents.collect::<Result<_, Unread>>()?;
-    let purpose = files.purpose;
-    Ok(FileResult::Read(Incoming { purpose, documents }))
+    Ok(FileResult::Read(Incoming {
+        purpose: files.purpose,
+        documents: documents.collect::<Result<_, Unread>>()?,
+        files: (!drawings.is_empty()).then(|| files.clone()),
+    }))
 }
 
 /// The line that another window has a file open; empty if none has.
@@ -540,8 +573,12 @@ pub(in crate::editor) fn open_elsewhere(path: &Path, autosaver: Option<&Autosave
 
 /// The path that a document read from it is saved back to: only a project loses nothing there.
 pub(in crate::editor) fn own_path(path: &Path) -> Option<PathBuf> {
-    let format = formats::to_read(path).ok()?;
-    format.holds_documents.then(|| path.to_owned())
+    is_project(path).then(|| path.to_owned())
+}
+
+/// Whether a file is a project, by its name.
+pub fn is_project(path: &Path) -> bool {
+    formats::to_read(path).is_ok_and(|format| format.holds_documents)
 }
 
 /// Give a path the extension if it has none that is a format's: what follows the point in
@@ -585,6 +622,7 @@ mod tests {
                 document: Document::default(),
                 own: None,
                 text: "read".to_owned(),
+                file: None,
             }))
         };
         let work = FileWork {

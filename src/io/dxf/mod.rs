@@ -32,6 +32,7 @@ pub static DXF: Format = Format {
     write_back: Some(|document, _, losses| drawing(document, &[], losses)),
     read_chosen: None,
     draw: Some(exchange::dxf::read),
+    is_unitless: false,
     holds_documents: false,
     exports: &[ExportRow {
         label: "Export DXF…",

@@ -27,6 +27,10 @@ pub struct Drawing {
     pub other: Vec<Other>,
     /// What is not wrong but better told: damage that was survived, what was skipped and why.
     pub remarks: Vec<String>,
+    /// Whether the file is binary: places in it are bytes, not lines.
+    pub is_binary: bool,
+    /// Whether lengths of the format have no unit at all, as in glyphs.
+    pub is_unitless: bool,
 }
 
 /// One curve, or one point, of a file.
@@ -76,6 +80,20 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Every kind.
+    pub const ALL: [Self; 10] = [
+        Self::Spline,
+        Self::Bezier,
+        Self::Arc,
+        Self::Circle,
+        Self::Ellipse,
+        Self::Line,
+        Self::Polyline,
+        Self::Polycurve,
+        Self::Path,
+        Self::Point,
+    ];
+
     /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
@@ -94,7 +112,7 @@ impl Kind {
 }
 
 /// Where an item belongs in its file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Space {
     /// A curve of its own.
     #[default]

@@ -20,6 +20,7 @@ const NONE: Format = Format {
     draw: None,
     write: None,
     write_back: None,
+    is_unitless: false,
     holds_documents: false,
     exports: &[],
 };
@@ -120,6 +121,7 @@ pub static GLIF: Format = Format {
     name: "GLIF",
     extensions: &["glif"],
     draw: Some(glif::read),
+    is_unitless: true,
     write: Some(|document, _, losses| drawn(document, Written::Cubics, losses, none, glif::write)),
     ..NONE
 };

@@ -10,6 +10,7 @@ pub(super) mod dxf;
 pub(super) mod formats;
 mod glif;
 mod iges;
+pub mod import;
 #[cfg(test)]
 mod mutate;
 mod obj;

@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use glam::{DMat3, DQuat, DVec3};
 
 use super::drawing::{Affine, Conic, Drawing, Item, Kind, Nurbs as DrawnNurbs, Shape, Space};
+use super::import::{ImportChoice, RowKey, free_space};
 use crate::document::{Colour, Curve, Group, Reference};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{
@@ -21,7 +22,7 @@ const SAME: f64 = 1e-12;
 const SEEN: std::ops::RangeInclusive<f64> = 40.0..=225.0;
 
 /// What a shape becomes.
-enum Made {
+pub(super) enum Made {
     Curve(NearestFloat),
     Reference(ReferenceCurve),
 }
@@ -31,6 +32,19 @@ impl Drawing {
     /// are taken where nothing is free. Lengths are in the file's unit, or in millimetres where Batten has
     /// no such unit.
     pub fn reading(&self) -> Reading {
+        let space = free_space(self.items.iter().map(|item| item.space));
+        self.taken(|item| item.space == space)
+    }
+
+    /// Make curves and references of what is chosen, in the chosen unit where the file says none. What is left out
+    /// is counted in a remark.
+    pub fn reading_of(&self, choice: &ImportChoice) -> Reading {
+        let mut reading = self.taken(|item| choice.taken.contains(&RowKey::of(item)));
+        reading.unit = reading.unit.or(choice.unit);
+        reading
+    }
+
+    fn taken(&self, is_taken: impl Fn(&Item) -> bool) -> Reading {
         let (unit, factor) = unit_of(self.unit);
         let mut taken = Taken {
             reading: Reading {
@@ -46,15 +60,12 @@ impl Drawing {
         for item in &self.items {
             *taken.crowds.entry(item.group.clone()).or_default() += 1;
         }
-        let is_in = |space: Space| self.items.iter().any(|item| item.space == space);
-        let taken_space = match is_in(Space::Edge) && !is_in(Space::Model) {
-            true => Space::Edge,
-            false => Space::Model,
-        };
-        for item in self.items.iter().filter(|item| item.space == taken_space) {
+        let (chosen, rest): (Vec<&Item>, Vec<&Item>) =
+            self.items.iter().partition(|item| is_taken(item));
+        for item in &chosen {
             taken.take(item);
         }
-        taken.finish(self, taken_space)
+        taken.finish(self, &chosen, &rest)
     }
 }
 
@@ -128,7 +139,7 @@ impl Taken {
                 Some(name) => self.names.free(name),
                 None => self.names.of_kind(item.kind),
             };
-            match made(scaled(shape, self.factor)) {
+            match Made::of(scaled(shape, self.factor)) {
                 Ok(Made::Curve(near)) => self.add_curve(name, near, item.colour, group.clone()),
                 Ok(Made::Reference(curve)) => {
                     let mut reference = Reference::new(name, curve).in_group(group.clone());
@@ -185,43 +196,42 @@ impl Taken {
     }
 
     /// Add the points, and say what was not taken.
-    fn finish(mut self, drawing: &Drawing, taken: Space) -> Reading {
+    fn finish(mut self, drawing: &Drawing, chosen: &[&Item], rest: &[&Item]) -> Reading {
         let points = std::mem::take(&mut self.points);
         match points.len() {
             0 => {}
             1 => self.tell("a single point is left out: a reference has two or more".to_owned()),
             _ => self.add_points(points),
         }
-        for (space, one, many) in [
-            (
-                Space::Paper,
-                "item of a layout for printing",
-                "items of layouts for printing",
-            ),
-            (
-                Space::Edge,
-                "edge of a solid or surface",
-                "edges of solids and surfaces",
-            ),
-        ] {
-            let count = drawing
-                .items
-                .iter()
-                .filter(|item| item.space == space)
-                .count();
-            let counted = counted(count, one, many);
-            match (count, space == taken) {
-                (0, _) => {}
-                (_, true) => self.tell(format!("{counted} taken: there is no free curve")),
-                (_, false) => self.tell(format!("{counted} left out")),
+        let count = |items: &[&Item], space: Space| {
+            let of_space = items.iter().filter(|item| item.space == space);
+            of_space.count()
+        };
+        let is_edges_alone = count(rest, Space::Model) == 0 && count(chosen, Space::Model) == 0;
+        if is_edges_alone && count(chosen, Space::Edge) > 0 {
+            let taken = edges(count(chosen, Space::Edge));
+            self.tell(format!("{taken} taken: there is no free curve"));
+        }
+        let printed = |count| {
+            let [one, many] = ["item of a layout", "items of layouts"];
+            format!("{} for printing", counted(count, one, many))
+        };
+        let not_chosen = |count| format!("{} not chosen,", counted(count, "item", "items"));
+        let words: [(Space, &dyn Fn(usize) -> String); 3] = [
+            (Space::Model, &not_chosen),
+            (Space::Paper, &printed),
+            (Space::Edge, &edges),
+        ];
+        for (space, words) in words {
+            let count = count(rest, space);
+            if count > 0 {
+                self.tell(format!("{} left out", words(count)));
             }
         }
         let others = drawing.other.iter();
-        let others: Vec<String> = others
-            .map(|it| format!("{} {}", it.count, it.kind))
-            .collect();
+        let others: Vec<String> = others.map(|it| it.told(drawing.is_binary)).collect();
         if !others.is_empty() {
-            self.tell(format!("no curves, left out: {}", others.join(", ")));
+            self.tell(format!("not understood: {}", others.join("; ")));
         }
         if self.factor != 1.0 {
             let told = format!(
@@ -292,27 +302,42 @@ fn scaled(shape: &Shape, factor: f64) -> Shape {
     }
 }
 
-fn made(shape: Shape) -> Result<Made, ReferenceError> {
-    let reference = match shape {
-        Shape::Nurbs(drawn) => {
-            let nurbs = drawn.checked()?;
-            if let Some(near) = nurbs.float_polygon() {
-                return Ok(Made::Curve(near));
+/// Count edges.
+fn edges(count: usize) -> String {
+    counted(
+        count,
+        "edge of a solid or surface",
+        "edges of solids and surfaces",
+    )
+}
+
+impl Made {
+    /// Make a curve of a shape where a float polygon is exact, otherwise a reference. A single point is none.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if the shape is no curve.
+    pub(super) fn of(shape: Shape) -> Result<Self, ReferenceError> {
+        let reference = match shape {
+            Shape::Nurbs(drawn) => {
+                let nurbs = drawn.checked()?;
+                if let Some(near) = nurbs.float_polygon() {
+                    return Ok(Made::Curve(near));
+                }
+                ReferenceCurve::of(ReferenceForm::Nurbs(nurbs))?
             }
-            ReferenceCurve::of(ReferenceForm::Nurbs(nurbs))?
-        }
-        Shape::Conic(conic) => ellipse(&conic)?,
-        Shape::Polyline { mut points, closed } => {
-            let first = points.first().copied();
-            points.extend(first.filter(|first| closed && points.last() != Some(first)));
-            ReferenceCurve::of(ReferenceForm::Points(PointList::new(points)?))?
-        }
-        Shape::Point(point) => {
-            let list = PointList::new(vec![point])?;
-            ReferenceCurve::of(ReferenceForm::Points(list))?
-        }
-    };
-    Ok(Made::Reference(reference))
+            Shape::Conic(conic) => ellipse(&conic)?,
+            Shape::Polyline { mut points, closed } => {
+                let first = points.first().copied();
+                points.extend(first.filter(|first| closed && points.last() != Some(first)));
+                ReferenceCurve::of(ReferenceForm::Points(PointList::new(points)?))?
+            }
+            Shape::Point(point) => {
+                let list = PointList::new(vec![point])?;
+                ReferenceCurve::of(ReferenceForm::Points(list))?
+            }
+        };
+        Ok(Made::Reference(reference))
+    }
 }
 
 /// The circle or ellipse over its part, placed.

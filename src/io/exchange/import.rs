@@ -1,0 +1,638 @@
+//! What a file of another program holds, by layer and kind, and what of it is taken.
+
+use std::collections::{HashMap, HashSet};
+
+use glam::DVec3;
+use thiserror::Error;
+
+use super::drawing::{Drawing, Item, Kind, Other, Shape, Space};
+use super::reading::Made;
+use crate::document::Group;
+use crate::geometry::expressions::LengthUnit;
+use crate::geometry::{ParametricCurve, significant};
+
+/// So many items come in unasked; more are worth a look before they fill the canvas.
+const FEW: usize = 20;
+
+/// The steps across a piece of a curve at which its box is measured: it then misses less than a hundredth of the
+/// piece's height.
+const STEPS: usize = 16;
+
+/// The digits of a size.
+const DIGITS: usize = 4;
+
+/// The name of items that are on no layer.
+const NO_LAYER: &str = "no layer";
+
+/// Items of one kind on one layer.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct RowKey {
+    /// Where they belong.
+    pub space: Space,
+    /// The path of the layer, outermost first; empty for none.
+    pub layer: Vec<String>,
+    /// The entity of the file.
+    pub kind: Kind,
+}
+
+/// What a file holds of one kind on one layer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundRow {
+    /// The kind and the layer.
+    pub key: RowKey,
+    /// The number of items.
+    pub count: usize,
+    /// The degrees of its splines, rising, each once.
+    pub degrees: Vec<usize>,
+    /// How many are rational splines.
+    pub rational: usize,
+    /// How many are splines that the file calls periodic.
+    pub periodic: usize,
+    /// How many of their pieces are curves: a float polygon holds them.
+    pub curves: usize,
+    /// How many of their pieces are smooth references, of which float polygons can be made.
+    pub references: usize,
+    /// The corners of the box around them, in the unit of the file.
+    pub bounds: Option<[DVec3; 2]>,
+}
+
+/// Everything that was found in a file of another program.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Found {
+    /// The length of a unit of the file in millimetres; `None` if the file does not say it.
+    pub unit: Option<f64>,
+    /// Whether lengths of the format have no unit at all, as in glyphs.
+    pub is_unitless: bool,
+    /// The items by layer and kind: free ones first, then layouts for printing, then edges.
+    pub rows: Vec<FoundRow>,
+    /// What is not understood.
+    pub other: Vec<Other>,
+    /// What is not wrong but better told.
+    pub remarks: Vec<String>,
+    /// Whether the file is binary: places in it are bytes, not lines.
+    pub is_binary: bool,
+}
+
+/// What is taken of a file of another program, and how.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ImportChoice {
+    /// The kinds and layers that are taken.
+    pub taken: HashSet<RowKey>,
+    /// The unit of a file that says none.
+    pub unit: Option<LengthUnit>,
+    /// Whether float polygons are made of smooth references too.
+    pub to_float: bool,
+    /// How far these may be off, in the unit of the file; without it 1e-4 of their size.
+    pub tolerance: Option<f64>,
+}
+
+/// What to take, by names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ImportFilter {
+    /// The paths of layers, with what is in them; all without a name.
+    pub layers: Vec<String>,
+    /// The kinds; all without one.
+    pub kinds: Vec<Kind>,
+    /// Whether edges of solids and boundaries of surfaces are taken.
+    pub edges: bool,
+    /// Whether layouts for printing are taken.
+    pub paper: bool,
+}
+
+/// A filter that takes nothing.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum FilterError {
+    /// No layer has this name.
+    #[error("there is no layer {name}: the file has {known}")]
+    NoLayer {
+        /// The name given.
+        name: String,
+        /// The layers of the file.
+        known: String,
+    },
+    /// Nothing has the kinds on the layers.
+    #[error("nothing of that kind is there: the file has {known}")]
+    Nothing {
+        /// The kinds and layers of the file.
+        known: String,
+    },
+}
+
+impl RowKey {
+    /// The key of an item.
+    pub(super) fn of(item: &Item) -> Self {
+        Self {
+            space: item.space,
+            layer: item.group.clone(),
+            kind: item.kind,
+        }
+    }
+
+    /// The layer as a path, with `/` between names.
+    pub fn layer_name(&self) -> String {
+        match self.layer.is_empty() {
+            true => NO_LAYER.to_owned(),
+            false => Group::new(&self.layer).to_string(),
+        }
+    }
+}
+
+impl FoundRow {
+    fn new(key: RowKey) -> Self {
+        Self {
+            key,
+            count: 0,
+            degrees: Vec::new(),
+            rational: 0,
+            periodic: 0,
+            curves: 0,
+            references: 0,
+            bounds: None,
+        }
+    }
+
+    fn add(&mut self, item: &Item) {
+        self.count += 1;
+        let splines = || item.shapes.iter().filter_map(Shape::nurbs);
+        for nurbs in splines() {
+            if let Err(place) = self.degrees.binary_search(&nurbs.degree) {
+                self.degrees.insert(place, nurbs.degree);
+            }
+        }
+        self.rational += usize::from(splines().any(|nurbs| nurbs.weights.is_some()));
+        self.periodic += usize::from(splines().any(|nurbs| nurbs.periodic));
+        for shape in &item.shapes {
+            match Made::of(shape.clone()) {
+                Ok(Made::Curve(near)) => {
+                    self.curves += 1;
+                    self.reach(&near.polygon);
+                }
+                Ok(Made::Reference(curve)) => {
+                    self.references += usize::from(curve.form().is_smooth());
+                    self.reach(&curve);
+                }
+                Err(_) => {
+                    if let Shape::Point(point) = shape {
+                        self.include(*point);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Widen the box by a curve.
+    fn reach(&mut self, curve: &dyn ParametricCurve) {
+        for piece in 0..curve.pieces() {
+            for step in 0..=STEPS {
+                let mut point = [DVec3::ZERO];
+                curve.fill_derivatives(piece, step as f64 / STEPS as f64, &mut point);
+                self.include(point[0]);
+            }
+        }
+    }
+
+    fn include(&mut self, point: DVec3) {
+        if point.is_finite() {
+            let [low, high] = self.bounds.unwrap_or([point; 2]);
+            self.bounds = Some([low.min(point), high.max(point)]);
+        }
+    }
+}
+
+impl Drawing {
+    /// List what is in the drawing by layer and kind.
+    pub fn found(&self) -> Found {
+        let mut rows: Vec<FoundRow> = Vec::new();
+        let mut places: HashMap<RowKey, usize> = HashMap::new();
+        for item in &self.items {
+            let key = RowKey::of(item);
+            let place = *places.entry(key.clone()).or_insert_with(|| {
+                rows.push(FoundRow::new(key));
+                rows.len() - 1
+            });
+            if let Some(row) = rows.get_mut(place) {
+                row.add(item);
+            }
+        }
+        rows.sort_by_key(|row| match row.key.space {
+            Space::Model => 0,
+            Space::Paper => 1,
+            Space::Edge => 2,
+        });
+        Found {
+            unit: self.unit,
+            is_unitless: self.is_unitless,
+            rows,
+            other: self.other.clone(),
+            remarks: self.remarks.clone(),
+            is_binary: self.is_binary,
+        }
+    }
+}
+
+impl Found {
+    /// What is taken at first: everything that is free, or the edges of solids where nothing is.
+    pub fn choice(&self) -> ImportChoice {
+        let space = free_space(self.rows.iter().map(|row| row.key.space));
+        let rows = self.rows.iter().filter(|row| row.key.space == space);
+        ImportChoice {
+            taken: rows.map(|row| row.key.clone()).collect(),
+            ..ImportChoice::default()
+        }
+    }
+
+    /// Whether there is something to choose: several layers or kinds, many items, a unit that the file does not
+    /// say, or something that is not understood.
+    pub fn asks(&self) -> bool {
+        let has_unit = self.unit.is_some() || self.is_unitless;
+        let is_plain = match &self.rows[..] {
+            [] => true,
+            [only] => only.count <= FEW && only.key.space == Space::Model,
+            _ => false,
+        };
+        !(has_unit && is_plain && self.other.is_empty() && self.remarks.is_empty())
+    }
+
+    /// The corners of the box around what is taken, in the unit of the file.
+    pub fn bounds(&self, choice: &ImportChoice) -> Option<[DVec3; 2]> {
+        let taken = self.taken(choice).filter_map(|row| row.bounds);
+        taken.reduce(|[low, high], [other_low, other_high]| {
+            [low.min(other_low), high.max(other_high)]
+        })
+    }
+
+    /// Tell the size of what is taken, in the unit that the file says or that is chosen; `None` if nothing has a size.
+    pub fn size(&self, choice: &ImportChoice) -> Option<String> {
+        let bounds = self.bounds(choice)?;
+        Some(match self.unit {
+            Some(millimetres) => match LengthUnit::ALL
+                .into_iter()
+                .find(|unit| unit.millimetres() == millimetres)
+            {
+                Some(unit) => size_told(bounds, 1.0, Some(unit)),
+                None => size_told(bounds, millimetres, Some(LengthUnit::Millimetre)),
+            },
+            None => size_told(bounds, 1.0, choice.unit),
+        })
+    }
+
+    /// List the units that a file which says none may be in, each with the size that what is taken then has: in that
+    /// unit, and in that of the document that receives it, or in millimetres.
+    pub fn unit_offers(
+        &self,
+        choice: &ImportChoice,
+        receiving: Option<LengthUnit>,
+    ) -> Vec<(Option<LengthUnit>, String)> {
+        let bounds = self.bounds(choice);
+        let told = |unit: Option<LengthUnit>| {
+            let Some(bounds) = bounds else {
+                return String::new();
+            };
+            let own = size_told(bounds, 1.0, unit);
+            let shown = receiving.unwrap_or(LengthUnit::Millimetre);
+            match unit.filter(|unit| *unit != shown) {
+                None => own,
+                Some(unit) => {
+                    let factor = unit.millimetres() / shown.millimetres();
+                    format!("{own} = {}", size_told(bounds, factor, Some(shown)))
+                }
+            }
+        };
+        let units = LengthUnit::ALL.map(Some).into_iter();
+        // Without a unit numbers count in that of the document, if it has one.
+        let none = receiving.is_none().then_some(None);
+        let units = units.chain(none);
+        units.map(|unit| (unit, told(unit))).collect()
+    }
+
+    /// List the rows that are taken.
+    pub fn taken<'a>(&'a self, choice: &'a ImportChoice) -> impl Iterator<Item = &'a FoundRow> {
+        let rows = self.rows.iter();
+        rows.filter(|row| choice.taken.contains(&row.key))
+    }
+
+    /// What is not understood, by name with its count and the place of the first, a line each.
+    pub fn not_understood(&self) -> impl Iterator<Item = String> {
+        let other = self.other.iter();
+        other.map(|other| other.told(self.is_binary))
+    }
+
+    /// Choose by names. Edges and layouts are taken only on demand.
+    ///
+    /// # Errors
+    /// [`FilterError`], naming what the file has.
+    pub fn matching(&self, filter: &ImportFilter) -> Result<ImportChoice, FilterError> {
+        let layers = || -> Vec<String> {
+            let mut names: Vec<String> = self.rows.iter().map(|row| row.key.layer_name()).collect();
+            names.sort();
+            names.dedup();
+            names
+        };
+        let is_in = |row: &FoundRow, name: &String| {
+            let layer = row.key.layer_name();
+            let inner = layer.strip_prefix(name.as_str());
+            inner.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        let has_layer = |name: &&String| !self.rows.iter().any(|row| is_in(row, name));
+        if let Some(name) = filter.layers.iter().find(has_layer) {
+            return Err(FilterError::NoLayer {
+                name: name.clone(),
+                known: layers().join(", "),
+            });
+        }
+        let mut choice = self.choice();
+        let wants = |row: &&FoundRow| {
+            let is_of_space = match row.key.space {
+                Space::Model => true,
+                Space::Paper => filter.paper,
+                Space::Edge => filter.edges,
+            };
+            let is_of_layer =
+                filter.layers.is_empty() || filter.layers.iter().any(|name| is_in(row, name));
+            let is_of_kind = filter.kinds.is_empty() || filter.kinds.contains(&row.key.kind);
+            let is_offered = is_of_space || choice.taken.contains(&row.key);
+            is_offered && is_of_layer && is_of_kind
+        };
+        let taken: HashSet<RowKey> = self
+            .rows
+            .iter()
+            .filter(wants)
+            .map(|row| row.key.clone())
+            .collect();
+        if taken.is_empty() && !self.rows.is_empty() {
+            let known = self.rows.iter().map(|row| {
+                let layer = row.key.layer_name();
+                format!("{} {} on {layer}", row.count, row.key.kind.name())
+            });
+            let known: Vec<String> = known.collect();
+            return Err(FilterError::Nothing {
+                known: known.join(", "),
+            });
+        }
+        choice.taken = taken;
+        Ok(choice)
+    }
+}
+
+impl Other {
+    /// Name it with its count and the place of the first one.
+    pub(super) fn told(&self, is_binary: bool) -> String {
+        let place = match is_binary {
+            true => "byte",
+            false => "line",
+        };
+        let (count, kind, at) = (self.count, &self.kind, self.at);
+        match count {
+            1 => format!("1 {kind} at {place} {at}"),
+            _ => format!("{count} {kind}, the first at {place} {at}"),
+        }
+    }
+}
+
+/// Tell the sides of a box in a unit: two in the plane, three in space.
+pub fn size_told([low, high]: [DVec3; 2], factor: f64, unit: Option<LengthUnit>) -> String {
+    let sides = factor * (high - low);
+    let axes = if sides.z == 0.0 { 2 } else { 3 };
+    let sides = sides.to_array().into_iter().take(axes);
+    let sides: Vec<String> = sides
+        .map(|side| trimmed(significant(side, DIGITS)))
+        .collect();
+    LengthUnit::behind(unit, sides.join(" × "))
+}
+
+/// Leave out zeros at the end of decimals.
+fn trimmed(text: String) -> String {
+    match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// The space of which items are taken unless others are chosen.
+pub(super) fn free_space(spaces: impl Iterator<Item = Space> + Clone) -> Space {
+    let has = |space: Space| spaces.clone().any(|it| it == space);
+    match has(Space::Edge) && !has(Space::Model) {
+        true => Space::Edge,
+        false => Space::Model,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::exchange::drawing::{Conic, Nurbs};
+
+    fn item(layer: &[&str], kind: Kind, space: Space, shape: Shape) -> Item {
+        Item {
+            kind,
+            shapes: vec![shape],
+            group: layer.iter().map(|it| (*it).to_owned()).collect(),
+            name: None,
+            block: None,
+            colour: None,
+            space,
+            at: 7,
+        }
+    }
+
+    fn line(to: [f64; 2]) -> Shape {
+        Shape::Polyline {
+            points: vec![DVec3::ZERO, DVec3::new(to[0], to[1], 0.0)],
+            closed: false,
+        }
+    }
+
+    /// A cubic on uneven knots, which no float polygon holds.
+    fn uneven() -> Shape {
+        let corner = |index: usize| DVec3::new(index as f64, (index % 2) as f64, 0.0);
+        Shape::Nurbs(Nurbs {
+            degree: 3,
+            knots: vec![0.0, 0.0, 0.0, 0.0, 1.0, 4.0, 5.0, 5.0, 5.0, 5.0],
+            points: (0..6).map(corner).collect(),
+            weights: None,
+            periodic: false,
+        })
+    }
+
+    fn circle() -> Shape {
+        Shape::Conic(Conic {
+            centre: DVec3::new(10.0, 0.0, 0.0),
+            x: 2.0 * DVec3::X,
+            y: 2.0 * DVec3::Y,
+            from: 0.0,
+            to: std::f64::consts::TAU,
+        })
+    }
+
+    fn drawing() -> Drawing {
+        let mut drawing = Drawing {
+            items: vec![
+                item(&["Deck"], Kind::Line, Space::Model, line([3.0, 4.0])),
+                item(&["Deck"], Kind::Line, Space::Model, line([-1.0, 1.0])),
+                item(&["Deck", "Port"], Kind::Spline, Space::Model, uneven()),
+                item(&["Deck"], Kind::Circle, Space::Paper, circle()),
+                item(&[], Kind::Spline, Space::Edge, uneven()),
+            ],
+            ..Drawing::default()
+        };
+        drawing.count_other("HATCH", 120);
+        drawing.count_other("HATCH", 140);
+        drawing
+    }
+
+    #[test]
+    fn items_are_found_by_layer_and_kind() {
+        let found = drawing().found();
+        let rows: Vec<(String, &str, usize)> = found
+            .rows
+            .iter()
+            .map(|row| (row.key.layer_name(), row.key.kind.name(), row.count))
+            .collect();
+        let expected = [
+            ("Deck", "line", 2),
+            ("Deck/Port", "spline", 1),
+            ("Deck", "circle", 1),
+            ("no layer", "spline", 1),
+        ];
+        assert_eq!(
+            rows,
+            expected.map(|(layer, kind, count)| (layer.to_owned(), kind, count))
+        );
+        let spline = &found.rows[1];
+        assert_eq!((&spline.degrees[..], spline.references), (&[3][..], 1));
+        let expected = [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(3.0, 4.0, 0.0)];
+        assert_eq!(found.rows[0].bounds, Some(expected));
+        let [low, high] = found.rows[2].bounds.expect("a box");
+        assert!(low.distance(DVec3::new(8.0, -2.0, 0.0)) < 1e-12, "{low}");
+        assert!(high.distance(DVec3::new(12.0, 2.0, 0.0)) < 1e-12, "{high}");
+        let told: Vec<String> = found.not_understood().collect();
+        assert_eq!(told, ["2 HATCH, the first at line 120"]);
+    }
+
+    #[test]
+    fn free_items_are_chosen_first_and_edges_where_nothing_is_free() {
+        let mut drawing = drawing();
+        let taken = |drawing: &Drawing| {
+            let found = drawing.found();
+            let choice = found.choice();
+            let rows = found.taken(&choice).map(|row| row.key.space);
+            rows.collect::<Vec<_>>()
+        };
+        assert_eq!(taken(&drawing), [Space::Model; 2]);
+        drawing.items.retain(|item| item.space != Space::Model);
+        assert_eq!(taken(&drawing), [Space::Edge]);
+    }
+
+    #[test]
+    fn only_a_file_with_nothing_to_choose_comes_in_unasked() {
+        let plain = Drawing {
+            unit: Some(1.0),
+            items: vec![item(&["0"], Kind::Spline, Space::Model, uneven())],
+            ..Drawing::default()
+        };
+        assert!(!plain.found().asks());
+        let without_unit = Drawing {
+            unit: None,
+            ..plain.clone()
+        };
+        assert!(without_unit.found().asks());
+        let glyph = Found {
+            is_unitless: true,
+            ..without_unit.found()
+        };
+        assert!(!glyph.asks());
+        let mut many = plain.clone();
+        many.items = vec![plain.items[0].clone(); FEW + 1];
+        assert!(many.found().asks());
+        let mut layers = plain.clone();
+        layers
+            .items
+            .push(item(&["1"], Kind::Spline, Space::Model, uneven()));
+        assert!(layers.found().asks());
+        let mut unknown = plain.clone();
+        unknown.count_other("HATCH", 3);
+        assert!(unknown.found().asks());
+    }
+
+    #[test]
+    fn names_of_layers_and_kinds_choose() {
+        let found = drawing().found();
+        let count = |filter: &ImportFilter| {
+            let choice = found.matching(filter)?;
+            Ok::<usize, FilterError>(found.taken(&choice).map(|row| row.count).sum())
+        };
+        let layers = |name: &str| ImportFilter {
+            layers: vec![name.to_owned()],
+            ..ImportFilter::default()
+        };
+        assert_eq!(count(&ImportFilter::default()), Ok(3));
+        assert_eq!(count(&layers("Deck")), Ok(3), "with what is in it");
+        assert_eq!(count(&layers("Deck/Port")), Ok(1));
+        let all = ImportFilter {
+            edges: true,
+            paper: true,
+            ..ImportFilter::default()
+        };
+        assert_eq!(count(&all), Ok(5));
+        let lines = ImportFilter {
+            kinds: vec![Kind::Line],
+            ..ImportFilter::default()
+        };
+        assert_eq!(count(&lines), Ok(2));
+        let refused = count(&layers("Dec")).expect_err("no layer");
+        assert_eq!(
+            refused.to_string(),
+            "there is no layer Dec: the file has Deck, Deck/Port, no layer"
+        );
+        let arcs = ImportFilter {
+            kinds: vec![Kind::Arc],
+            ..ImportFilter::default()
+        };
+        assert!(matches!(count(&arcs), Err(FilterError::Nothing { .. })));
+    }
+
+    #[test]
+    fn sizes_tell_units_apart() {
+        let found = drawing().found();
+        let mut choice = found.choice();
+        choice.taken.retain(|key| key.kind == Kind::Line);
+        let told = |receiving| -> Vec<String> {
+            let offers = found.unit_offers(&choice, receiving).into_iter();
+            offers.map(|(_, text)| text).collect()
+        };
+        assert_eq!(
+            told(None),
+            [
+                "4 × 4 mm",
+                "4 × 4 cm = 40 × 40 mm",
+                "4 × 4 m = 4000 × 4000 mm",
+                "4 × 4 in = 101.6 × 101.6 mm",
+                "4 × 4"
+            ]
+        );
+        let inches = told(Some(LengthUnit::Inch));
+        assert_eq!(inches[0], "4 × 4 mm = 0.1575 × 0.1575 in");
+        assert_eq!(inches.len(), 4, "numbers without a unit count in inches");
+        choice.unit = Some(LengthUnit::Metre);
+        assert_eq!(found.size(&choice).as_deref(), Some("4 × 4 m"));
+    }
+
+    #[test]
+    fn what_is_not_chosen_is_told() {
+        let drawing = drawing();
+        let mut choice = drawing.found().choice();
+        choice.taken.retain(|key| key.kind == Kind::Line);
+        choice.unit = Some(LengthUnit::Inch);
+        let reading = drawing.reading_of(&choice);
+        assert_eq!(reading.unit, Some(LengthUnit::Inch));
+        assert_eq!(reading.references.len(), 2);
+        let told = reading.remarks.to_string();
+        assert_eq!(
+            told,
+            "1 item not chosen, left out\n\
+             1 item of a layout for printing left out\n\
+             1 edge of a solid or surface left out\n\
+             not understood: 2 HATCH, the first at line 120"
+        );
+    }
+}

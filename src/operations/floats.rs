@@ -1,0 +1,231 @@
+//! References as float polygons near them.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::error::OperationError;
+use crate::document::{Curve, CurveId, Document, Edit, Group, Reference, quoted};
+use crate::geometry::approximation::{
+    Approximated, ApproximationRequest, Goal, MOST_SEGMENTS, Placing, approximate_to_tolerance,
+};
+use crate::geometry::references::{ReferenceCurve, ReferenceError, ReferenceForm};
+use crate::geometry::{MAX_DEGREE, ParametricCurve, Progress, counted, rounded_up};
+
+/// The tolerance without a wish, in units of a reference's size.
+const WITHIN: f64 = 1e-4;
+
+/// The least degree without a wish: lower ones need many vertices for the features of curvature.
+const LEAST: usize = 5;
+
+/// A larger angle between the directions before and after a knot is a corner, in radians: about 0.06°. Smaller ones
+/// come from programs that keep six or seven digits.
+const CORNER: f64 = 1e-3;
+
+/// The levels of curvature and torsion whose features are kept.
+const LEVELS: usize = 2;
+
+/// The time that one of many references has at most.
+const TIME: Duration = Duration::from_secs(5);
+
+/// The steps across a piece by which the size of a reference is measured.
+const STEPS: usize = 8;
+
+/// The float polygons that references get.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FloatWish {
+    /// The degree; without one that of a spline, at least 5.
+    pub degree: Option<usize>,
+    /// How far they may be off; without it 1e-4 of a reference's size.
+    pub tolerance: Option<f64>,
+}
+
+/// The curves that stand for a reference: one for each part between corners.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Floats {
+    /// The curves, in the group and colour of the reference.
+    pub curves: Vec<Curve>,
+    /// The number of their vertices.
+    pub vertices: usize,
+    /// How far they are off at most.
+    pub deviation: f64,
+    /// Whether that is a proved bound; otherwise it is measured.
+    pub is_bounded: bool,
+    /// Whether it is within the tolerance.
+    pub is_within: bool,
+    /// Whether they have the features of the reference.
+    pub keeps_features: bool,
+}
+
+/// Make the float polygons that stand for a smooth reference. Parts between corners become curves of their own, whose
+/// ends are exact.
+///
+/// # Errors
+/// [`OperationError`] if it has no points, a part cannot be approximated, or `progress` is cancelled before anything
+/// is found.
+pub fn floats_of(
+    reference: &Reference,
+    wish: FloatWish,
+    progress: &Progress,
+) -> Result<Floats, OperationError> {
+    let curve = &reference.curve;
+    if !curve.form().is_smooth() {
+        return Err(OperationError::PointsOnly);
+    }
+    curve.check_points()?;
+    let tolerance = wish.tolerance.unwrap_or(WITHIN * size(curve));
+    let parts = parts(curve)?;
+    let count = parts.len();
+    let mut floats = Floats {
+        curves: Vec::with_capacity(count),
+        vertices: 0,
+        deviation: 0.0,
+        is_bounded: true,
+        is_within: true,
+        keeps_features: true,
+    };
+    for (index, part) in parts.iter().enumerate() {
+        let share = |index: usize| index as f64 / count as f64;
+        let own = progress.part(share(index), share(index + 1));
+        let found = near(
+            part,
+            wish.degree,
+            tolerance,
+            &own.hurried(1.0 / (count - index) as f64),
+        )?;
+        floats.vertices += found.polygon.vertices().len();
+        floats.deviation = floats.deviation.max(found.distance());
+        floats.is_bounded &= found.deviation.bounded;
+        floats.is_within &= found.distance() <= tolerance;
+        floats.keeps_features &= found.is_equivalent();
+        let name = match count {
+            1 => reference.name.clone(),
+            _ => format!("{} {}", reference.name, index + 1),
+        };
+        let mut made = Curve::new(name, found.polygon).in_group(match count {
+            1 => reference.group.clone(),
+            _ => Group::new(reference.group.names().iter().chain([&reference.name])),
+        });
+        made.colour = reference.colour;
+        made.visible = reference.visible;
+        floats.curves.push(made);
+    }
+    Ok(floats)
+}
+
+/// Put float polygons in the place of all smooth references of a document, and tell of each. One that has none within
+/// the tolerance stays.
+///
+/// # Errors
+/// [`OperationError::Edit`] if the document cannot take them; never for those that are made here.
+pub fn floated(
+    document: &Document,
+    wish: FloatWish,
+    progress: &Progress,
+) -> Result<(Document, Vec<String>), OperationError> {
+    let references = document.references();
+    let smooth = references.filter(|(_, reference)| reference.curve.form().is_smooth());
+    let smooth: Vec<(CurveId, Arc<Reference>)> = smooth
+        .map(|(id, reference)| (id, reference.clone()))
+        .collect();
+    let (mut edits, mut told) = (Vec::new(), Vec::new());
+    for (index, (id, reference)) in smooth.iter().enumerate() {
+        let share = |index: usize| index as f64 / smooth.len() as f64;
+        let own = progress.part(share(index), share(index + 1));
+        let own = own.hurried(1.0 / (smooth.len() - index) as f64);
+        let text = match floats_of(reference, wish, &own.limited(TIME)) {
+            Ok(floats) if floats.is_within => {
+                let text = floats.told();
+                edits.push(Edit::Remove(*id));
+                let added = floats.curves.into_iter().map(Box::new).map(Edit::Add);
+                edits.extend(added);
+                text
+            }
+            Ok(floats) => format!("stays a reference: {}", floats.told()),
+            Err(error) => format!("stays a reference: {error}"),
+        };
+        told.push(format!("{}: {text}", quoted(&reference.name)));
+    }
+    Ok((document.edited(edits)?, told))
+}
+
+impl Floats {
+    /// Tell the vertices, the deviation and whether features are kept.
+    pub fn told(&self) -> String {
+        let pieces = match self.curves.len() {
+            1 => String::new(),
+            count => format!("{count} curves between corners, "),
+        };
+        let vertices = counted(self.vertices, "vertex", "vertices");
+        let off = rounded_up(self.deviation);
+        let off = match self.is_bounded {
+            true => format!("off by at most {off}"),
+            false => format!("off by {off}, measured"),
+        };
+        let within = match self.is_within {
+            true => "",
+            false => ", which is more than the tolerance",
+        };
+        let features = match self.keeps_features {
+            true => "; features kept",
+            false => "; features differ",
+        };
+        format!("{pieces}{vertices}, {off}{within}{features}")
+    }
+}
+
+fn near(
+    part: &ReferenceCurve,
+    degree: Option<usize>,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Approximated, OperationError> {
+    let own = match part.form() {
+        ReferenceForm::Nurbs(nurbs) => nurbs.degree(),
+        _ => LEAST,
+    };
+    let goal = Goal {
+        tolerance,
+        spacing: None,
+        most_segments: MOST_SEGMENTS,
+    };
+    let asked = ApproximationRequest {
+        degree: degree.unwrap_or(own.clamp(LEAST, MAX_DEGREE)),
+        placing: Placing::Quasi,
+        levels: LEVELS,
+        periodic: false,
+        fit_ends: true,
+    };
+    let interval = part.interval();
+    Ok(approximate_to_tolerance(
+        part, interval, &goal, &asked, progress,
+    )?)
+}
+
+/// The parts of a reference between its corners.
+fn parts(curve: &ReferenceCurve) -> Result<Vec<ReferenceCurve>, ReferenceError> {
+    let [from, to] = curve.interval();
+    let corners = (1..curve.pieces()).filter(|piece| {
+        let [before, after] = [(piece - 1, 1.0), (*piece, 0.0)].map(|(piece, t)| {
+            let mut values = [glam::DVec3::ZERO; 2];
+            curve.fill_derivatives(piece, t, &mut values);
+            values[1]
+        });
+        // Where the curve stops there is no direction to compare.
+        before.angle_between(after) > CORNER
+    });
+    let inner = corners.map(|piece| curve.parameter(piece as f64));
+    let places: Vec<f64> = [from].into_iter().chain(inner).chain([to]).collect();
+    let parts = places.windows(2).map(|part| curve.over([part[0], part[1]]));
+    parts.collect()
+}
+
+/// The diagonal of the box around a reference, as samples show.
+fn size(curve: &ReferenceCurve) -> f64 {
+    let steps = STEPS * curve.pieces();
+    let points = (0..=steps).map(|step| curve.jet(step as f64 / STEPS as f64).point);
+    let [low, high] = points.fold(
+        [glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY],
+        |it, point| [it[0].min(point), it[1].max(point)],
+    );
+    low.distance(high)
+}

@@ -1,0 +1,61 @@
+//! The import panel.
+
+use egui_kittest::kittest::Queryable;
+
+use super::files::drop_file;
+use super::hand::*;
+use crate::drawings::dxf;
+
+const LINES: [(&str, [f64; 2]); 3] = [
+    ("Deck", [120.0, 45.0]),
+    ("Deck", [60.0, 20.0]),
+    ("Keel", [10.0, 0.0]),
+];
+
+fn references(window: &Window) -> usize {
+    window.state().editor().document().references().count()
+}
+
+#[test]
+fn layers_kinds_and_units_of_a_drawing_are_chosen_before_it_comes_in() {
+    let mut window = open_window_of(1000.0, 700.0);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("hull.dxf");
+    std::fs::write(&path, dxf(None, &LINES, 2)).expect("the file");
+    drop_file(&mut window, &path);
+    window.get_by_label("Import “hull.dxf”");
+    window.get_by_label_contains("Not understood, left out: 2 HATCH, the first at line");
+    window.get_by_label("Taken: 3 references; 120 × 45");
+    click(&mut window, "Keel, line: 1");
+    window.get_by_label("Taken: 2 references; 120 × 45");
+    click(&mut window, "inches");
+    window.get_by_label("Taken: 2 references; 120 × 45 in");
+    assert_eq!(references(&window), 0, "nothing yet");
+    click(&mut window, "Cancel");
+    assert_eq!(references(&window), 0);
+    drop_file(&mut window, &path);
+    window.get_by_label("Taken: 3 references; 120 × 45");
+    click(&mut window, "Take none");
+    click(&mut window, "Deck, line: 2");
+    click(&mut window, "Import");
+    assert_eq!(references(&window), 2);
+    window.get_by_label_contains("1 item not chosen, left out");
+}
+
+#[test]
+fn a_plain_drawing_says_what_came_and_leads_to_the_panel() {
+    let mut window = open_window();
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("plain.dxf");
+    std::fs::write(&path, dxf(Some(4), &LINES[..2], 0)).expect("the file");
+    drop_file(&mut window, &path);
+    assert_eq!(references(&window), 2, "nothing to choose");
+    window.get_by_label_contains("2 references added");
+    click(&mut window, "Choose…");
+    window.get_by_label("Taken: 2 references; 120 × 45 mm");
+    click(&mut window, "Import");
+    assert_eq!(references(&window), 2, "once, not twice");
+    choose(&mut window, &["File", "Choose imported…"]);
+    click(&mut window, "Cancel");
+    assert_eq!(references(&window), 2);
+}
