@@ -9,6 +9,7 @@ use super::apply::Application;
 use super::apply_arguments::{ApplyArguments, Given};
 use super::compare::Compared;
 use super::ends::{Destination, STANDARD, Source};
+use super::export_arguments::ExportArguments;
 use super::list::Listed;
 use super::many_files::ManyFiles;
 use super::parsers::{
@@ -79,7 +80,7 @@ enum Command {
         json: bool,
     },
     /// Convert a file to another format; what the format cannot hold is listed on stderr
-    #[command(group = ArgGroup::new("nearing").args(["degree_at_most", "to_float"]).multiple(true))]
+    #[command(group = ArgGroup::new("nearing").args(["degree_at_most", "to_float", "preset"]).multiple(true))]
     Convert {
         /// The file to read, or - for the standard input; its extension tells the format
         #[arg(value_name = "IN")]
@@ -141,6 +142,8 @@ enum Command {
         /// Write as few points on the curve as keep the polyline through them this near to it
         #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with_all = ["points", "polygon", "nearing"])]
         chord: Option<f64>,
+        #[command(flatten)]
+        export: ExportArguments,
         /// Write a polygon even if it cannot be read back as the curve
         #[arg(long)]
         force: bool,
@@ -285,6 +288,8 @@ pub(super) enum Task {
         most_degree: Option<usize>,
         /// How far curves may move that get a lower degree or a float polygon.
         tolerance: Option<f64>,
+        /// What is written and how.
+        export: ExportArguments,
         /// Whether to write what cannot be read back.
         force: bool,
     },
@@ -373,6 +378,7 @@ impl Arguments {
                 tolerance,
                 points,
                 chord,
+                export,
                 force,
             }) => {
                 let source = source("convert", input, from_format, columns)?;
@@ -399,6 +405,7 @@ impl Arguments {
                         to_float,
                         most_degree: degree_at_most.map(usize::from),
                         tolerance,
+                        export,
                         force,
                     },
                 }

@@ -3,16 +3,17 @@
 use anyhow::{Context, bail};
 
 use super::ends::{Destination, Source};
+use super::export_arguments::ExportArguments;
 use super::output::{self, Messages};
-use crate::document::{Document, quoted};
+use crate::document::Document;
 use crate::geometry::expressions::LengthUnit;
-use crate::geometry::{PolygonKind, Progress, counted, rounded_up};
+use crate::geometry::{PolygonKind, Progress};
 use crate::io::examples::Example;
-use crate::io::{Export, Format};
+use crate::io::{Export, ExportChoice};
 use crate::operations::{FloatWish, floated, lowered};
 
 /// What happens on the way from one file to another.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(super) struct Conversion {
     /// The polygon to write.
     pub(super) polygon: Option<PolygonKind>,
@@ -24,50 +25,60 @@ pub(super) struct Conversion {
     pub(super) most_degree: Option<usize>,
     /// How far curves may move that get a lower degree or a float polygon.
     pub(super) tolerance: Option<f64>,
+    /// What is written and how.
+    pub(super) export: ExportArguments,
     /// Whether to write what cannot be read back.
     pub(super) force: bool,
 }
 
 impl Conversion {
-    /// Make float polygons of references and lower degrees, and tell how far each curve moves.
-    fn of(&self, document: Document) -> anyhow::Result<Document> {
-        let document = match self.to_float {
-            false => document,
-            true => {
-                let wish = FloatWish {
-                    degree: None,
-                    tolerance: self.tolerance,
-                };
-                let (made, told) = floated(&document, wish, &Progress::default())?;
-                told.iter().for_each(|line| output::message(line));
-                made
-            }
+    /// Make float polygons of references, and tell how far each is off.
+    fn floated(&self, document: Document) -> anyhow::Result<Document> {
+        if !self.to_float {
+            return Ok(document);
+        }
+        let wish = FloatWish {
+            degree: None,
+            tolerance: self.tolerance,
         };
-        let Some(most) = self.most_degree else {
+        let (made, told) = floated(&document, wish, &Progress::default())?;
+        told.iter().for_each(|line| output::message(line));
+        Ok(made)
+    }
+
+    /// Lower the degrees that are too high, and tell how far each curve moves.
+    fn lowered(&self, document: Document, most: Option<usize>) -> anyhow::Result<Document> {
+        let Some(most) = self.most_degree.or(most) else {
             return Ok(document);
         };
         let (lower, told) = lowered(&document, most, self.tolerance, &Progress::default())?;
         for it in told {
-            let within = match it.is_within {
-                true => "",
-                false => ", which is more than the tolerance",
-            };
-            let features = it.changed.map_or_else(String::new, |[before, now]| {
-                let [inflections, extrema] = [0, 1].map(|kind| (before[kind], now[kind]));
-                format!(
-                    "; inflections: {} before, {} now; curvature extrema: {} before, {} now",
-                    inflections.0, inflections.1, extrema.0, extrema.1
-                )
-            });
-            output::message(&format!(
-                "{}: degree {} becomes {most}, {}, off by at most {}{within}{features}",
-                quoted(&it.name),
-                it.degree,
-                counted(it.vertices, "vertex", "vertices"),
-                rounded_up(it.deviation),
-            ));
+            output::message(&it.to_string());
         }
         Ok(lower)
+    }
+
+    /// Write a document as the options say.
+    fn written(&self, document: Document, destination: &Destination) -> anyhow::Result<Export> {
+        let format = destination.format()?;
+        let place = || destination.name();
+        match self.export.choice(format, &document)? {
+            None => {
+                let document = self.lowered(document, None)?;
+                let export = format.write(&document, self.polygon);
+                export.with_context(place)
+            }
+            Some((choice, items)) => {
+                let choice = ExportChoice {
+                    knots: self.polygon,
+                    tolerance: self.tolerance,
+                    ..choice
+                };
+                let chosen = choice.chosen(&document, &items).with_context(place)?;
+                let lower = self.lowered(chosen, choice.most_degree)?;
+                choice.write(&lower).with_context(place)
+            }
+        }
     }
 }
 
@@ -80,7 +91,7 @@ pub(super) fn convert(
     destination: &Destination,
     conversion: &Conversion,
 ) -> anyhow::Result<()> {
-    let Conversion { polygon, force, .. } = *conversion;
+    let Conversion { polygon, force, .. } = conversion;
     if destination.is(source) {
         bail!(
             "{}: a file is not converted into itself",
@@ -88,8 +99,10 @@ pub(super) fn convert(
         );
     }
     let document = source.document(conversion.assumed_unit, &Messages::Printed)?;
-    let document = conversion.of(document).with_context(|| source.name())?;
-    let (export, format) = exported(&document, destination, polygon)?;
+    let document = conversion.floated(document);
+    let document = document.with_context(|| source.name())?;
+    let export = conversion.written(document, destination)?;
+    let format = destination.format()?;
     // A float polygon is read back as it is.
     let is_converted = polygon.is_some_and(|kind| kind != PolygonKind::Float);
     if is_converted
@@ -110,16 +123,7 @@ pub(super) fn convert(
 /// If the destination cannot be written.
 pub(super) fn example(example: &Example, destination: &Destination) -> anyhow::Result<()> {
     let document = example.read()?.into_document()?;
-    let (export, _) = exported(&document, destination, None)?;
+    let export = destination.format()?.write(&document, None);
+    let export = export.with_context(|| destination.name())?;
     destination.write(export, &Messages::Printed)
-}
-
-fn exported(
-    document: &Document,
-    destination: &Destination,
-    polygon: Option<PolygonKind>,
-) -> anyhow::Result<(Export, &'static Format)> {
-    let format = destination.format()?;
-    let export = format.write(document, polygon);
-    Ok((export.with_context(|| destination.name())?, format))
 }

@@ -63,6 +63,19 @@ pub(super) fn only(
     }
 }
 
+/// All curves and references of a document, with their names.
+pub(super) fn all(document: &Document) -> Vec<(CurveId, &str)> {
+    items(document, Inputs::OneOrNone)
+}
+
+/// Find a curve or a reference among all by its name or number.
+///
+/// # Errors
+/// As [`found`].
+pub(super) fn item(all: &[(CurveId, &str)], name: &str) -> anyhow::Result<CurveId> {
+    found(all, Inputs::OneOrNone, name)
+}
+
 /// List items in a message.
 pub(super) fn listed(items: &[(CurveId, &str)]) -> String {
     let names: Vec<String> = items.iter().map(|(_, name)| quoted(name)).collect();

@@ -10,6 +10,7 @@ mod compare;
 mod convert;
 mod edit;
 mod ends;
+mod export_arguments;
 mod feature_lists;
 mod inspect;
 mod inspected_reference;
@@ -71,6 +72,7 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
             to_float,
             most_degree,
             tolerance,
+            export,
             force,
         }) => convert::convert(
             &source,
@@ -81,6 +83,7 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
                 to_float,
                 most_degree,
                 tolerance,
+                export,
                 force,
             },
         ),

@@ -6,7 +6,7 @@ use crate::geometry::expressions::{LengthUnit, NumberContext};
 use crate::geometry::{PolygonKind, Spacing};
 use crate::io::examples::{EXAMPLES, Example};
 use crate::io::exchange::drawing::Kind;
-use crate::io::{ColumnChoice, Format, formats};
+use crate::io::{ColumnChoice, Format, PRESETS, Preset, formats};
 
 /// The most points that are written, and the most threads that may be asked for.
 const MOST: usize = 1_000_000;
@@ -56,6 +56,16 @@ pub(super) fn tolerance(text: &str) -> Result<f64, String> {
         true => Ok(number),
         false => Err("a number above 0 is needed".to_owned()),
     }
+}
+
+/// Read a factor above 0, which may be an expression.
+pub(super) fn scale(text: &str) -> Result<f64, String> {
+    tolerance(text)
+}
+
+pub(super) fn preset_parser() -> impl TypedValueParser<Value = &'static Preset> {
+    let names = PossibleValuesParser::new(PRESETS.iter().map(|preset| preset.name));
+    names.try_map(|name| Preset::find(&name).ok_or("no such program"))
 }
 
 /// Read columns by their numbers, counted from 1, or by their names.

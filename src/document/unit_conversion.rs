@@ -24,16 +24,28 @@ impl Document {
             return Ok(());
         }
         let converted = |length: f64| length * before.millimetres() / unit.millimetres();
+        *self = self.with_lengths(&converted)?.with_unit(Some(unit));
+        Ok(())
+    }
+
+    /// The document larger by a factor, about the origin, in the same unit.
+    ///
+    /// # Errors
+    /// [`EditError`] of the first curve or reference whose numbers get too large or too small.
+    pub fn scaled(&self, factor: f64) -> Result<Self, EditError> {
+        self.with_lengths(&|length| factor * length)
+    }
+
+    /// The document with all lengths changed in the same proportion.
+    fn with_lengths(&self, changed: &impl Fn(f64) -> f64) -> Result<Self, EditError> {
         let mut document = self.clone();
         for (_, curve) in &mut document.curves {
-            *curve = Arc::new(converted_curve(curve, &converted)?);
+            *curve = Arc::new(converted_curve(curve, changed)?);
         }
         for (_, reference) in &mut document.references {
-            *reference = Arc::new(converted_reference(reference, converted(1.0))?);
+            *reference = Arc::new(converted_reference(reference, changed(1.0))?);
         }
-        document.unit = Some(unit);
-        *self = document;
-        Ok(())
+        Ok(document)
     }
 }
 

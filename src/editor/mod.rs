@@ -24,6 +24,7 @@ pub use hand::{
     Modifiers, ToolKind, ToolRow, Transformation,
 };
 pub use jobs::edited_file::EditedFile;
+pub use jobs::exporting::ExportForecast;
 pub use jobs::file_reading::{ColumnQuestion, FileAnswer, FoundFile, ImportQuestion};
 pub use jobs::filing::{FileReply, Filing, is_project};
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, Recovery, with_extension};
@@ -104,6 +105,9 @@ impl Editor {
         self.patience.renew();
         self.operating().receive();
         self.receive_files();
+        let selection = &self.hand.selection;
+        let patience = &mut self.patience;
+        self.filing.forecast(&self.workspace, selection, patience);
     }
 
     /// The workspace: the document, its history and its file.

@@ -40,6 +40,16 @@ impl Selection {
         self.vertices.range(range).map(|(_, index)| *index)
     }
 
+    /// The items that are selected: curves with selected vertices, or else the active curve or reference.
+    pub fn items(&self) -> Vec<CurveId> {
+        let mut items: Vec<CurveId> = self.vertices.iter().map(|(curve, _)| *curve).collect();
+        items.dedup();
+        match items.is_empty() {
+            true => self.active.into_iter().collect(),
+            false => items,
+        }
+    }
+
     /// Whether a vertex is selected.
     pub fn contains(&self, vertex: VertexId) -> bool {
         self.vertices.contains(&vertex)

@@ -396,6 +396,41 @@ pub enum WriteError {
         /// Which curve, and why.
         reason: String,
     },
+    /// Nothing is in the scope that is chosen.
+    #[error("{}", match *.0 {
+        "selected" => "nothing is selected: select what to write, or write what is visible",
+        "visible" => "everything is hidden: show the curves to write, or write all",
+        _ => "there is nothing to write",
+    })]
+    NothingChosen(&'static str),
+    /// A program cannot read the degree of a curve.
+    #[error(
+        "{} has degree {degree}, and {program} reads degrees up to {most}: {why}. Choose a lower degree",
+        quoted(.name)
+    )]
+    DegreeTooHigh {
+        /// The curve's name.
+        name: String,
+        /// Its degree.
+        degree: usize,
+        /// The program.
+        program: &'static str,
+        /// The highest degree that it reads.
+        most: usize,
+        /// What it does with higher ones.
+        why: &'static str,
+    },
+    /// Points on a curve would be too many.
+    #[error("{} would take more than 100 000 points within {within:e}: allow more", quoted(.name))]
+    TooManyPoints {
+        /// The curve's name.
+        name: String,
+        /// How near the polyline through them was to be.
+        within: f64,
+    },
+    /// The document cannot have the unit or the scale.
+    #[error("{0}")]
+    Size(#[from] EditError),
     /// A curve has more vertices than the format can count.
     #[error(
         "{} has {vertices} vertices, and a {format} file can hold {most} a curve: split the curve",

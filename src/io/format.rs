@@ -48,9 +48,29 @@ type ReadChosen = fn(&[u8], &ColumnChoice) -> Result<Reading, ReadError>;
 /// Read the bytes of a file as a drawing.
 type DrawBytes = fn(&[u8]) -> Result<Drawing, Unreadable>;
 
-/// Write a document by one of its polygons; without a choice by those that the format prefers.
-type WriteDocument =
-    fn(&Document, Option<PolygonKind>, &mut LossReport) -> Result<Vec<u8>, WriteError>;
+/// Write a document.
+type WriteDocument = fn(&Document, &Writing, &mut LossReport) -> Result<Vec<u8>, WriteError>;
+
+/// How a document is written, where formats leave a choice.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Writing {
+    /// The polygon by which a project or a table holds each curve, or whose knots splines get; without one that which
+    /// the format prefers.
+    pub(super) polygon: Option<PolygonKind>,
+    /// The polygons that a DXF draws beside each curve; without a list `polygon`, or those that it prefers.
+    pub(super) beside: Option<Vec<PolygonKind>>,
+    /// How far cubic Béziers may be off their curve; without it 1e-4 of its size.
+    pub(super) tolerance: Option<f64>,
+}
+
+impl From<Option<PolygonKind>> for Writing {
+    fn from(polygon: Option<PolygonKind>) -> Self {
+        Self {
+            polygon,
+            ..Self::default()
+        }
+    }
+}
 
 /// A row of the menu for an export.
 #[derive(Debug, PartialEq, Eq, Hash)]
@@ -151,8 +171,20 @@ impl Format {
         document: &Document,
         polygon: Option<PolygonKind>,
     ) -> Result<Export, WriteError> {
+        self.write_as(document, &polygon.into())
+    }
+
+    /// Write a document as it is said.
+    ///
+    /// # Errors
+    /// As [`Format::write`].
+    pub(super) fn write_as(
+        &self,
+        document: &Document,
+        writing: &Writing,
+    ) -> Result<Export, WriteError> {
         let write = self.write.ok_or(WriteError::ReadOnly(self.name))?;
-        self.written(write, document, polygon)
+        self.written(write, document, writing)
     }
 
     /// Write a document back to a file of another program: the curves and references alone.
@@ -162,17 +194,17 @@ impl Format {
     pub fn write_back(&self, document: &Document) -> Result<Export, WriteError> {
         let write = self.write_back.or(self.write);
         let write = write.ok_or(WriteError::ReadOnly(self.name))?;
-        self.written(write, document, None)
+        self.written(write, document, &Writing::default())
     }
 
     fn written(
         &self,
         write: WriteDocument,
         document: &Document,
-        polygon: Option<PolygonKind>,
+        writing: &Writing,
     ) -> Result<Export, WriteError> {
         let mut losses = LossReport::new(self.name);
-        let bytes = write(document, polygon, &mut losses)?;
+        let bytes = write(document, writing, &mut losses)?;
         if !self.holds_documents {
             losses.add_matches(document, |_| true);
             losses.project_keys = !document.extras().is_empty();

@@ -14,6 +14,7 @@ mod dxf;
 mod error;
 pub mod examples;
 pub mod exchange;
+mod export;
 mod file_match;
 mod fingerprint;
 mod format;
@@ -47,6 +48,7 @@ pub use dxf::DXF;
 pub use error::{
     FileError, FileProblem, FormatError, Place, Problem, ReadError, WriteError, shown_path,
 };
+pub use export::{ExportChoice, PRESETS, Preset, Scope};
 pub use file_match::{FileMatch, MatchSource};
 pub use fingerprint::Fingerprint;
 pub use format::{ExportRow, Exporter, Format};

@@ -11,13 +11,12 @@
 use glam::DVec3;
 
 use super::error::WriteError;
-use super::format::Format;
+use super::format::{Format, Writing};
 use super::loss::LossReport;
 use super::table;
 use super::table_header::TableHeader;
 use super::table_points::is_title;
 use crate::document::{Document, Reference};
-use crate::geometry::PolygonKind;
 
 /// The row of the table of formats.
 pub static POINT_TABLE: Format = Format {
@@ -37,11 +36,7 @@ pub static POINT_TABLE: Format = Format {
 ///
 /// # Errors
 /// [`WriteError::NoPoints`].
-fn write(
-    document: &Document,
-    _: Option<PolygonKind>,
-    losses: &mut LossReport,
-) -> Result<Vec<u8>, WriteError> {
+fn write(document: &Document, _: &Writing, losses: &mut LossReport) -> Result<Vec<u8>, WriteError> {
     let mut lists = Vec::new();
     for (_, curve) in document.curves() {
         losses.add_curve(curve);

@@ -20,7 +20,7 @@ use serde_json::Value;
 use serde_path_to_error::{Path, Segment};
 
 use super::error::{Place, Problem, ReadError, WriteError};
-use super::format::Format;
+use super::format::{Format, Writing};
 use super::json_layout;
 use super::loss::LossReport;
 use super::object::Version;
@@ -28,7 +28,6 @@ use super::project_file::{FORMAT, ProjectFile, Version1, Version2};
 use super::reading::Reading;
 use super::text::text;
 use crate::document::{Document, escaped};
-use crate::geometry::PolygonKind;
 
 /// The row of the table of formats.
 pub static PROJECT: Format = Format {
@@ -75,10 +74,10 @@ fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
 /// Write a document with each curve held by one of its polygons (default: float, which loses nothing).
 fn write(
     document: &Document,
-    polygon: Option<PolygonKind>,
+    writing: &Writing,
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
-    let project = ProjectFile::of(document, polygon.unwrap_or_default(), losses);
+    let project = ProjectFile::of(document, writing.polygon.unwrap_or_default(), losses);
     Ok(json_layout::to_text(&project).into_bytes())
 }
 

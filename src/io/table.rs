@@ -29,7 +29,7 @@ use glam::DVec3;
 
 use super::decimals::Decimals;
 use super::error::{Place, Problem, ReadError, WriteError};
-use super::format::{ExportRow, Format};
+use super::format::{ExportRow, Format, Writing};
 use super::loss::{Loss, LossReport};
 use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
@@ -290,23 +290,23 @@ impl<'a> Section<'a> {
 /// [`WriteError::NoCurves`]: an empty file could not be read again.
 fn write(
     document: &Document,
-    polygon: Option<PolygonKind>,
+    writing: &Writing,
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
-    write_separated(document, polygon, losses, &TABLE, b',')
+    write_separated(document, writing, losses, &TABLE, b',')
 }
 
 fn write_with_tabs(
     document: &Document,
-    polygon: Option<PolygonKind>,
+    writing: &Writing,
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
-    write_separated(document, polygon, losses, &TAB_TABLE, b'\t')
+    write_separated(document, writing, losses, &TAB_TABLE, b'\t')
 }
 
 fn write_separated(
     document: &Document,
-    polygon: Option<PolygonKind>,
+    writing: &Writing,
     losses: &mut LossReport,
     format: &Format,
     separator: u8,
@@ -315,7 +315,7 @@ fn write_separated(
     let mut bytes = unit.unwrap_or_default().into_bytes();
     let mut blocks = Vec::new();
     for (_, curve) in document.curves() {
-        let kind = polygon.unwrap_or_default();
+        let kind = writing.polygon.unwrap_or_default();
         blocks.push(curve_block(curve, kind, losses, separator));
         losses.add_attributes(curve);
         losses.add_group(&curve.name, &curve.group, Group::default());

@@ -21,7 +21,7 @@ const LEAST: usize = 5;
 /// come from programs that keep six or seven digits.
 const CORNER: f64 = 1e-3;
 
-/// The levels of curvature and torsion whose features are kept.
+/// The most levels of curvature and torsion whose features are kept.
 const LEVELS: usize = 2;
 
 /// The time that one of many references has at most.
@@ -52,8 +52,8 @@ pub struct Floats {
     pub is_bounded: bool,
     /// Whether it is within the tolerance.
     pub is_within: bool,
-    /// Whether they have the features of the reference.
-    pub keeps_features: bool,
+    /// Whether they have the features of the reference; `None` where these jump at knots, so that nothing is compared.
+    pub keeps_features: Option<bool>,
 }
 
 /// Make the float polygons that stand for a smooth reference. Parts between corners become curves of their own, whose
@@ -81,7 +81,7 @@ pub fn floats_of(
         deviation: 0.0,
         is_bounded: true,
         is_within: true,
-        keeps_features: true,
+        keeps_features: Some(true),
     };
     for (index, part) in parts.iter().enumerate() {
         let share = |index: usize| index as f64 / count as f64;
@@ -96,7 +96,11 @@ pub fn floats_of(
         floats.deviation = floats.deviation.max(found.distance());
         floats.is_bounded &= found.deviation.bounded;
         floats.is_within &= found.distance() <= tolerance;
-        floats.keeps_features &= found.is_equivalent();
+        let is_same = (!found.levels.is_empty()).then(|| found.is_equivalent());
+        floats.keeps_features = floats
+            .keeps_features
+            .zip(is_same)
+            .map(|(all, one)| all && one);
         let name = match count {
             1 => reference.name.clone(),
             _ => format!("{} {}", reference.name, index + 1),
@@ -166,8 +170,9 @@ impl Floats {
             false => ", which is more than the tolerance",
         };
         let features = match self.keeps_features {
-            true => "; features kept",
-            false => "; features differ",
+            Some(true) => "; features kept",
+            Some(false) => "; features differ",
+            None => "; features not compared",
         };
         format!("{pieces}{vertices}, {off}{within}{features}")
     }
@@ -191,7 +196,8 @@ fn near(
     let asked = ApproximationRequest {
         degree: degree.unwrap_or(own.clamp(LEAST, MAX_DEGREE)),
         placing: Placing::Quasi,
-        levels: LEVELS,
+        // Beyond the continuous derivatives levels jump at knots.
+        levels: part.continuity().saturating_sub(1).min(LEVELS),
         periodic: false,
         fit_ends: true,
     };

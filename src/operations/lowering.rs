@@ -1,9 +1,11 @@
 //! Curves of a lower degree, for programs that hold no higher one.
 
+use std::fmt;
+
 use super::degree::{Goal, changed_features, fewest};
 use super::error::OperationError;
-use crate::document::{Curve, Document};
-use crate::geometry::{BezierPolygon, Progress};
+use crate::document::{Curve, Document, quoted};
+use crate::geometry::{BezierPolygon, Progress, counted, rounded_up};
 
 /// The tolerance without a wish, in units of a curve's size.
 const WITHIN: f64 = 1e-4;
@@ -15,6 +17,8 @@ pub struct Lowered {
     pub name: String,
     /// The degree before.
     pub degree: usize,
+    /// The degree now.
+    pub lowered: usize,
     /// The number of vertices now.
     pub vertices: usize,
     /// A bound of how far it moves.
@@ -24,6 +28,31 @@ pub struct Lowered {
     /// The inflections (in space zeros of the torsion) and the curvature extrema, before and now; `None` if they are the
     /// same, or not all known.
     pub changed: Option<[[usize; 2]; 2]>,
+}
+
+impl fmt::Display for Lowered {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let within = match self.is_within {
+            true => "",
+            false => ", which is more than the tolerance",
+        };
+        let features = self.changed.map_or_else(String::new, |[before, now]| {
+            let [inflections, extrema] = [0, 1].map(|kind| (before[kind], now[kind]));
+            format!(
+                "; inflections: {} before, {} now; curvature extrema: {} before, {} now",
+                inflections.0, inflections.1, extrema.0, extrema.1
+            )
+        });
+        write!(
+            formatter,
+            "{}: degree {} becomes {}, {}, off by at most {}{within}{features}",
+            quoted(&self.name),
+            self.degree,
+            self.lowered,
+            counted(self.vertices, "vertex", "vertices"),
+            rounded_up(self.deviation),
+        )
+    }
 }
 
 /// Give all curves of a higher degree than `most` that degree, with the fewest vertices within a tolerance (without one
@@ -57,6 +86,7 @@ pub fn lowered(
             told.push(Lowered {
                 name: curve.name.clone(),
                 degree: polygon.degree(),
+                lowered: most,
                 vertices: found.polygon.vertices().len(),
                 deviation: found.deviation,
                 is_within: found.deviation <= tolerance,

@@ -29,7 +29,9 @@ pub enum Action {
     SaveAs,
     /// Open the document's file again.
     Reload,
-    /// Write the visible curves in a format.
+    /// Write curves as they were written last.
+    ExportLast,
+    /// Write curves in a format.
     Export(Exporter),
     /// Leave.
     Quit,
@@ -83,6 +85,7 @@ impl Action {
             Self::SaveAs,
             Self::Reload,
         ];
+        all.push(Self::ExportLast);
         all.extend(formats::exporters().into_iter().map(Self::Export));
         all.extend((0..EXAMPLES.len()).map(Self::OpenExample));
         all.extend([Self::Quit, Self::Cut, Self::Copy, Self::Paste, Self::Rename]);
@@ -115,6 +118,7 @@ impl Action {
             Self::Save => "Save",
             Self::SaveAs => "Save as…",
             Self::Reload => "Reload",
+            Self::ExportLast => "Export…",
             Self::Export(exporter) => exporter.row.label,
             Self::Quit => "Quit",
             Self::Cut => "Cut",
@@ -172,6 +176,9 @@ impl Action {
             Self::SaveAs => "Save the document to another file",
             Self::ChooseImport => "Choose anew what is taken of the drawing that came in last",
             Self::Reload => "Read the file again from disk; Undo brings your changes back",
+            Self::ExportLast => {
+                "Export in the form of the last export, after a look at what it loses"
+            }
             Self::Export(exporter) => exporter.row.help,
             Self::Quit => "Quit Batten",
             Self::Cut => "Copy the selected vertices and delete them",
@@ -204,6 +211,7 @@ impl Action {
             Self::Import => Shortcut::ctrl('i'),
             Self::Save => Shortcut::ctrl('s'),
             Self::SaveAs => Shortcut::ctrl_shift('s'),
+            Self::ExportLast => Shortcut::ctrl('e'),
             Self::Export(exporter) => return exporter.row.key.map(Shortcut::ctrl),
             Self::Quit => Shortcut::ctrl('q'),
             Self::Cut => Shortcut::ctrl('x'),
@@ -238,6 +246,7 @@ impl Action {
                 | Self::ChooseImport
                 | Self::SaveAs
                 | Self::Export(_)
+                | Self::ExportLast
                 | Self::NudgeStep
                 | Self::Palette
                 | Self::Manual
@@ -250,7 +259,7 @@ impl Action {
     pub fn is_enabled(self, editor: &Editor) -> bool {
         match self {
             Self::Command(command) => command.is_enabled(editor),
-            Self::Export(_) => !editor.document().is_empty(),
+            Self::Export(_) | Self::ExportLast => !editor.document().is_empty(),
             Self::Reload => editor.workspace().path().is_some(),
             Self::ChooseImport => editor.filing().has_imported(),
             Self::Cut | Self::Copy | Self::Rename => editor.active().is_some(),

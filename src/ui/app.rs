@@ -11,6 +11,7 @@ use super::canvas_entry::CanvasEntry;
 use super::context_menu::ContextMenu;
 use super::dialogs::{self, Decision, Dialog};
 use super::document_unit;
+use super::export_panel::{ExportAnswer, ExportPanel};
 use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
 use super::help::{self, Help, Topic};
@@ -35,7 +36,7 @@ use crate::editor::{
     MenuSubject, Refusal, Reply, ToolKind, is_project, told,
 };
 
-use crate::io::{Exporter, PROJECT, formats};
+use crate::io::{DXF, ExportChoice, Exporter, PROJECT, formats};
 
 /// Under which name the settings are kept.
 const SETTINGS: &str = "window";
@@ -58,6 +59,7 @@ pub struct App {
     requested: Option<Requested>,
     dialog: Option<Dialog>,
     import: ImportPanel,
+    export: ExportPanel,
     /// Actions that wait for the end of the frame.
     actions: Vec<Action>,
     /// The title that the window has now.
@@ -129,6 +131,7 @@ impl App {
             requested: None,
             dialog: None,
             import: ImportPanel::default(),
+            export: ExportPanel::default(),
             actions: Vec::new(),
             title: String::new(),
             leaving: false,
@@ -377,6 +380,10 @@ impl App {
             }
             None => {}
         }
+        match self.export.show(context, &mut self.editor) {
+            Some(ExportAnswer::Write(choice)) => self.ask_export(context, choice),
+            Some(ExportAnswer::Cancel) | None => {}
+        }
         let canvas = self.canvas.rect().unwrap_or(context.content_rect());
         match recovery::recovery_ui(context, canvas, self.editor.recovery().recoverable()) {
             Some(Choice::Open(id)) => self.confirm(context, AfterDiscard::Recover(id)),
@@ -413,7 +420,7 @@ impl App {
                 self.editor.interrupt();
                 self.files.ask(context, Purpose::Open, self.folder());
             }
-            Action::ChooseImport => told(self.editor.choose_import()),
+            Action::ChooseImport => told(self.editor.answer_files(Some(FileAnswer::Anew))),
             Action::OpenExample(index) => self.confirm(context, AfterDiscard::OpenExample(index)),
             Action::Paper => self.confirm(context, AfterDiscard::OpenPaper(self.paper.page())),
             Action::Quit => self.confirm(context, AfterDiscard::Quit),
@@ -421,7 +428,14 @@ impl App {
             Action::Save => self.save_own(context, None, false),
             Action::SaveAs => self.ask_save(context, None),
             Action::Reload => told(self.editor.reload()),
-            Action::Export(exporter) => self.ask_export(context, exporter),
+            Action::Export(exporter) => {
+                let choice = self.export_choice(Some(exporter));
+                self.export.open(choice);
+            }
+            Action::ExportLast => {
+                let choice = self.export_choice(None);
+                self.export.open(choice);
+            }
             Action::Cut => copy(context, self.editor.cut()),
             Action::Copy => copy(context, self.editor.copy()),
             Action::Rename => self.side.rename_active(context, &self.editor),
@@ -471,8 +485,31 @@ impl App {
         }
     }
 
-    fn ask_export(&mut self, context: &Context, exporter: Exporter) {
-        let extension = exporter.format.extension();
+    /// What an export begins with: the document's last choice if it has the format, or as the row of the menu says.
+    fn export_choice(&self, exporter: Option<Exporter>) -> ExportChoice {
+        let workspace = self.editor.workspace();
+        let last = self.editor.filing().last_export(workspace).cloned();
+        let last = last.or_else(|| self.shell.export_of(workspace.path()?));
+        let first = || {
+            let mut exporters = formats::exporters().into_iter();
+            exporters.find(|it| it.format == &DXF)
+        };
+        match (exporter, last) {
+            (None, Some(last)) => last,
+            (Some(exporter), Some(last)) if last.format == exporter.format => last,
+            (exporter, _) => match exporter.or_else(first) {
+                Some(exporter) => ExportChoice::of(exporter),
+                None => ExportChoice::new(&DXF),
+            },
+        }
+    }
+
+    fn ask_export(&mut self, context: &Context, choice: Box<ExportChoice>) {
+        let workspace = self.editor.workspace();
+        if let Some(path) = workspace.path() {
+            self.shell.keep_export(path, &choice);
+        }
+        let extension = choice.format.extension();
         let stem = self.editor.workspace().path().and_then(Path::file_stem);
         let name = stem.map(|stem| stem.to_string_lossy().into_owned());
         // All curves are written: one names the file only if it is alone.
@@ -482,7 +519,7 @@ impl App {
         let name = name.or_else(|| only.map(|(_, curve)| curve.name.clone()));
         let name = name.unwrap_or_else(|| "curves".into());
         let proposal = self.folder().join(format!("{name}.{extension}"));
-        self.files.ask(context, Purpose::Export(exporter), proposal);
+        self.files.ask(context, Purpose::Export(choice), proposal);
     }
 
     fn ask_save(&mut self, context: &Context, after: Option<AfterDiscard>) {
@@ -547,7 +584,8 @@ impl App {
             return;
         };
         if purpose == Purpose::Open && is_project(&path) && self.editor.workspace().is_modified() {
-            // Anything else is added.
+            // Anything else is added. The Enter that ended the prompt is no answer to this question.
+            context.input_mut(|input| input.consume_key(egui::Modifiers::NONE, egui::Key::Enter));
             self.confirm(context, AfterDiscard::OpenFile(path));
             return;
         }
@@ -560,7 +598,7 @@ impl App {
             Purpose::Save(_) => editor.save(path),
             Purpose::Open => editor.open(&paths),
             Purpose::Import => editor.import(&paths),
-            Purpose::Export(exporter) => editor.export(path, exporter),
+            Purpose::Export(choice) => editor.export(path, &choice),
         });
         context.request_repaint();
     }

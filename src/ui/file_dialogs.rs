@@ -14,7 +14,7 @@ use super::theme::{ROW, Tokens};
 use super::widgets;
 use crate::document::quoted;
 use crate::editor::with_extension;
-use crate::io::{Exporter, Format, PROJECT, formats, shown_path};
+use crate::io::{ExportChoice, Format, PROJECT, formats, shown_path};
 use crate::paper::PaperPage;
 
 /// A dialog that answers "nothing" sooner than this was never shown.
@@ -47,7 +47,7 @@ pub enum Purpose {
     /// Save under it, then go on.
     Save(Option<AfterDiscard>),
     /// To export to.
-    Export(Exporter),
+    Export(Box<ExportChoice>),
 }
 
 /// The paths that the user chose.
@@ -299,7 +299,7 @@ impl Purpose {
         match self {
             Self::Open | Self::Import => None,
             Self::Save(_) => Some(&PROJECT),
-            Self::Export(exporter) => Some(exporter.format),
+            Self::Export(choice) => Some(choice.format),
         }
     }
 
@@ -309,8 +309,8 @@ impl Purpose {
             Self::Open => ("Open a file".to_owned(), "Open"),
             Self::Import => ("Import curves from a file".to_owned(), "Import"),
             Self::Save(_) => ("Save the document".to_owned(), "Save"),
-            Self::Export(exporter) => {
-                let format = exporter.format.extension().to_uppercase();
+            Self::Export(choice) => {
+                let format = choice.format.extension().to_uppercase();
                 (format!("Export as {format}"), "Export")
             }
         }

@@ -51,6 +51,8 @@ pub enum Topic {
     Paper,
     /// The import panel.
     Import,
+    /// The export panel.
+    Export,
 }
 
 impl Topic {
@@ -75,6 +77,7 @@ impl Topic {
             Self::Harmony => "harmony.md",
             Self::Paper => "start.md#try-the-examples",
             Self::Import => "files.md#import",
+            Self::Export => "files.md#export",
         };
         link.to_owned()
     }

@@ -31,6 +31,7 @@ pub fn of_action(action: Action) -> Option<Icon> {
         Action::Open => Icon::FolderOpen,
         Action::Import => Icon::Import,
         Action::Save => Icon::Save,
+        Action::ExportLast => Icon::Share,
         Action::Export(exporter) => named(exporter.row.icon),
         Action::OpenExample(_) => Icon::Spline,
         Action::Cut => Icon::Scissors,

@@ -8,6 +8,7 @@ use eframe::egui::{
 use lucide_icons::Icon;
 
 use super::help::{self, Topic};
+use super::keyboard::{self, Typing};
 use super::number_field::NumberField;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::{figures, widgets};
@@ -34,8 +35,8 @@ const COLUMNS: [(&str, f32); 6] = [
     ("Layer", 0.04),
     ("Kind", 0.36),
     ("Count", 0.49),
-    ("Degree", 0.59),
-    ("Form", 0.69),
+    ("Degree", 0.61),
+    ("Form", 0.70),
     ("Size", 0.80),
 ];
 
@@ -68,13 +69,14 @@ impl ImportPanel {
             return None;
         };
         let receiving = receiving.filter(|_| !question.replaces);
-        if !std::mem::replace(&mut self.is_open, true) {
+        let is_new = !std::mem::replace(&mut self.is_open, true);
+        if is_new {
             let files = question.files.iter();
             self.choices = files.map(|file| first_choice(file, receiving)).collect();
         }
         widgets::modal(context, "import", ImportAnswer::Cancel, |ui| {
             ui.set_width(WIDTH.min(context.content_rect().width() - 16.0 * STEP));
-            let answer = self.panel_ui(ui, question, receiving);
+            let answer = self.panel_ui(ui, question, receiving, is_new);
             help::mark(ui, ui.min_rect(), Topic::Import);
             answer
         })
@@ -85,7 +87,10 @@ impl ImportPanel {
         ui: &mut Ui,
         question: &ImportQuestion,
         receiving: Option<LengthUnit>,
+        is_new: bool,
     ) -> Option<ImportAnswer> {
+        // A number that Enter ends is taken first; the Enter that asked for files is no answer.
+        let is_typing = is_new || keyboard::typing(ui.ctx()) == Typing::Text;
         let files = &question.files;
         let verb = if question.replaces { "Open" } else { "Import" };
         ui.strong(match &files[..] {
@@ -111,8 +116,7 @@ impl ImportPanel {
             .iter()
             .zip(&self.choices)
             .all(|(file, choice)| file.found.taken(choice).next().is_none());
-        let is_entered = ui.input(|input| input.key_pressed(Key::Enter))
-            && ui.memory(|memory| memory.focused().is_none());
+        let is_entered = !is_typing && ui.input(|input| input.key_pressed(Key::Enter));
         let mut answer = None;
         ui.horizontal(|ui| {
             widgets::at_right(ui, |ui| {
@@ -294,6 +298,7 @@ fn file_ui(ui: &mut Ui, file: &FoundFile, choice: &mut ImportChoice, is_named: b
     if file.found.rows.is_empty() {
         widgets::note(ui, "The file holds no curve.");
     }
+    ui.add_space(STEP);
     let tokens = Tokens::of(ui);
     for text in file.found.not_understood() {
         let text = format!("Not understood, left out: {text}");

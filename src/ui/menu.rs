@@ -186,7 +186,8 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
     let exporters = formats::exporters().into_iter();
     let exports = exporters.map(|exporter| Item(Action::Export(exporter)));
     file.extend([
-        Entry::Submenu("Export", exports.collect()),
+        Item(Action::ExportLast),
+        Entry::Submenu("Export as", exports.collect()),
         Divider,
         Item(Action::Quit),
     ]);

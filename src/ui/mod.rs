@@ -22,6 +22,7 @@ mod draft;
 mod end_fit_panel;
 mod end_fit_target;
 mod end_marks;
+mod export_panel;
 mod feature_comparison;
 mod feature_list;
 mod feature_marks;

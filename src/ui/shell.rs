@@ -1,10 +1,12 @@
 //! The parts of the window beside the document.
 
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use crate::editor::{CurvatureDisplay, Layer, Layers};
+use crate::io::ExportChoice;
 
 /// The parts of the window beside the document; the settings keep them from run to run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,6 +33,8 @@ pub struct Shell {
     pub(super) tool_names: bool,
     /// How curvatures are written, by name.
     pub(super) curvature: String,
+    /// What documents exported last, by their paths, the last one first.
+    pub(super) exports: Vec<(PathBuf, BTreeMap<String, String>)>,
     /// Whether a card offers the tour of the paper: from the first start until it is answered.
     pub(super) offers_tour: bool,
 }
@@ -49,6 +53,7 @@ impl Default for Shell {
             bands: true,
             tool_names: false,
             curvature: CurvatureDisplay::default().name().to_owned(),
+            exports: Vec::new(),
             offers_tour: false,
         }
     }
@@ -67,7 +72,23 @@ const OLD_PLACES: [Layer; 9] = [
     Layer::SafeRegion,
 ];
 
+/// The most documents whose last export is kept.
+const MOST_EXPORTS: usize = 50;
+
 impl Shell {
+    /// The choice of the last export of a document, by its path.
+    pub fn export_of(&self, path: &Path) -> Option<ExportChoice> {
+        let (_, settings) = self.exports.iter().find(|(known, _)| known == path)?;
+        ExportChoice::of_settings(settings)
+    }
+
+    /// Keep the choice of the last export of a document.
+    pub fn keep_export(&mut self, path: &Path, choice: &ExportChoice) {
+        self.exports.retain(|(known, _)| known != path);
+        self.exports.insert(0, (path.to_owned(), choice.settings()));
+        self.exports.truncate(MOST_EXPORTS);
+    }
+
     /// Remember which layers are shown.
     pub fn keep_layers(&mut self, layers: Layers) {
         let named = Layer::ALL.map(|layer| (layer.row().name.to_owned(), layers.shows(layer)));

@@ -234,6 +234,85 @@ fn degrees_are_lowered_within_a_tolerance_that_is_measured() {
     );
 }
 
+/// A drawing in millimetres: two lines on Deck, one on Keel, and a hatch.
+const DRAWING: &str = "  0\nSECTION\n  2\nHEADER\n  9\n$INSUNITS\n 70\n4\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n\
+  0\nLINE\n  8\nDeck\n 10\n0\n 20\n0\n 11\n3\n 21\n4\n\
+  0\nLINE\n  8\nDeck\n 10\n0\n 20\n0\n 11\n6\n 21\n8\n\
+  0\nLINE\n  8\nKeel\n 10\n0\n 20\n0\n 11\n9\n 21\n0\n\
+  0\nHATCH\n  8\n0\n  0\nENDSEC\n  0\nEOF\n";
+
+#[test]
+fn layers_and_kinds_of_a_drawing_are_chosen() {
+    let folder = Folder::new().with("a.dxf", DRAWING);
+    let (_, err) = folder.done(&["convert", "a.dxf", "deck.batten", "--layer", "Deck"]);
+    assert_eq!(
+        err,
+        "batten: a.dxf: 1 item not chosen, left out\n\
+         batten: a.dxf: not understood: 1 HATCH at line 52\n"
+    );
+    let deck = folder.inspect(&["deck.batten"]);
+    assert_eq!(deck["references"].as_array().map(Vec::len), Some(2));
+    folder.refused(
+        &["convert", "a.dxf", "b.batten", "--layer", "Mast"],
+        "a.dxf: there is no layer Mast: the file has Deck, Keel",
+    );
+    folder.refused(
+        &["convert", "a.dxf", "b.batten", "--kind", "spline"],
+        "a.dxf: nothing of that kind is there: the file has 2 line on Deck, 1 line on Keel",
+    );
+    let (list, _) = folder.done(&["list", "a.dxf"]);
+    let list: Value = serde_json::from_str(&list).expect("JSON");
+    let row = json!({"layer": "Deck", "kind": "line", "count": 2, "degrees": [], "rational": 0,
+        "periodic": 0, "bounds": [[0.0, 0.0, 0.0], [6.0, 8.0, 0.0]]});
+    assert_eq!(list["rows"][0], row);
+    assert_eq!(
+        list["other"],
+        json!([{"kind": "HATCH", "count": 1, "at": 52}])
+    );
+}
+
+#[test]
+fn presets_write_what_a_program_reads() {
+    let folder = Folder::new();
+    folder.done(&["example", "arc", "a.batten"]);
+    let preset =
+        |name: &'static str, out: &'static str| ["convert", "a.batten", out, "--preset", name];
+    let (_, err) = folder.done(&preset("librecad", "a.dxf"));
+    assert!(err.contains("degree 9 becomes 3, "), "{err}");
+    assert_eq!(folder.inspect(&["a.dxf"])["curves"][0]["degree"], 3);
+    let output =
+        folder.run(&[&preset("librecad", "b.dxf")[..], &["--degree-at-most", "5"]].concat());
+    let (_, err) = texts(&output);
+    let reason = "b.dxf: “arc” has degree 5, and LibreCAD reads degrees up to 3: it leaves them blank. Choose a lower degree\n";
+    assert!(
+        output.status.code() == Some(1) && err.ends_with(reason),
+        "{err}"
+    );
+    folder.refused(
+        &preset("rhino", "a.step"),
+        "Rhino takes 3DM: give OUT the extension .3dm",
+    );
+    let (_, err) = folder.done(&preset("glyphs", "a.glif"));
+    assert!(err.contains("cubic Bézier, up to "), "{err}");
+    // Half the size, in inches.
+    folder.done(&["convert", "a.batten", "mm.batten", "--assume-unit", "mm"]);
+    let sized = [
+        "convert",
+        "mm.batten",
+        "b.step",
+        "--unit",
+        "in",
+        "--scale",
+        "127/5",
+    ];
+    folder.done(&sized);
+    let [own, there] = ["a.batten", "b.step"].map(|file| {
+        let found = folder.inspect(&[file]);
+        found["curves"][0]["length"].as_f64().expect("a length")
+    });
+    assert!((there / own - 1.0).abs() < 1e-12, "{there} and {own}");
+}
+
 #[test]
 fn unknown_keys_are_told_and_kept() {
     let curve =

@@ -355,10 +355,10 @@ fn points_need_a_number_or_a_tolerance_and_one_curve() {
     folder.done(&["example", "arc", "arc.batten"]);
     let points = |more: &[&'static str]| [&["points", "two.batten", "out.dat"], more].concat();
     folder.misused(&points(&[]), "--count N, or --tolerance T");
-    folder.refused(
-        &["points", "arc.batten", "out.dxf", "--count", "9"],
-        "out.dxf: DXF files hold curves, no tables of points: use .csv or .dat",
-    );
+    // Formats that hold no tables get a polyline.
+    folder.done(&["points", "arc.batten", "out.dxf", "--count", "9"]);
+    let drawn = folder.inspect(&["out.dxf"]);
+    assert_eq!(drawn["references"].as_array().map(Vec::len), Some(1));
     folder.misused(
         &points(&["--count", "1"]),
         "a whole number from 2 to 1000000",

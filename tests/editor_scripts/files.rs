@@ -179,7 +179,7 @@ fn a_name_with_a_point_gets_its_extension() {
     let export = exporter("csv", PolygonKind::Float);
     let exported = script
         .editor
-        .export(&folder.path().join("hull v1.2"), export);
+        .export(&folder.path().join("hull v1.2"), &export);
     assert!(exported.is_ok(), "{exported:?}");
     assert!(folder.path().join("hull v1.2.csv").is_file());
     let drawing = folder.path().join("hull.dxf");

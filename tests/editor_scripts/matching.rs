@@ -484,7 +484,7 @@ fn an_export_names_the_matches_of_what_it_holds() {
     for extension in ["csv", "dxf"] {
         let path = folder.path().join("matched").with_extension(extension);
         let export = exporter(extension, PolygonKind::Float);
-        told(script.editor.export(&path, export));
+        told(script.editor.export(&path, &export));
         let message = script.message();
         let line = "the match of its start to “first” isn't stored";
         assert!(message.contains(line), "{message}");
@@ -496,7 +496,7 @@ fn an_export_names_the_matches_of_what_it_holds() {
     }));
     let path = folder.path().join("one.csv");
     let export = exporter("csv", PolygonKind::Float);
-    told(script.editor.export(&path, export));
+    told(script.editor.export(&path, &export));
     assert!(
         !script.message().contains("the match of"),
         "{}",

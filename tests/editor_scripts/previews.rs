@@ -64,7 +64,7 @@ fn check_saved(script: &mut Script, before: &Document) {
     script.editor.save(&path).expect("a file");
     let export = exporter("csv", PolygonKind::Float);
     let table = folder.path().join("own.csv");
-    script.editor.export(&table, export).expect("a table");
+    script.editor.export(&table, &export).expect("a table");
     let expected: Vec<_> = before.curves().map(|(_, curve)| &curve.polygon).collect();
     for file in [path, table] {
         let read = disk::read_file(&file).expect("what was written").curves;

@@ -310,7 +310,7 @@ fn exports_keep_to_their_format_and_tell_what_is_hidden() {
     let folder = tempfile::tempdir().expect("a folder");
     let export = exporter("dxf", PolygonKind::Float);
     let project = folder.path().join("own.batten");
-    assert!(script.editor.export(&project, export).is_err());
+    assert!(script.editor.export(&project, &export).is_err());
     assert!(!project.exists() && script.message().contains("own.batten"));
     let hide = Edit::SetVisible {
         curve: other,
@@ -318,7 +318,7 @@ fn exports_keep_to_their_format_and_tell_what_is_hidden() {
     };
     script.editor.apply("hide", vec![hide]).expect("an edit");
     let drawing = folder.path().join("own.dxf");
-    assert!(script.editor.export(&drawing, export).is_ok());
+    assert!(script.editor.export(&drawing, &export).is_ok());
     assert!(drawing.exists());
     assert!(
         script.message().contains("1 hidden curve skipped"),

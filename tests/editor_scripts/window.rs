@@ -11,7 +11,7 @@ use batten::editor::{
 };
 use batten::geometry::expressions::LengthUnit;
 use batten::geometry::{FloatPolygon, PolygonKind};
-use batten::io::{Exporter, PROJECT, formats};
+use batten::io::{ExportChoice, PROJECT, formats};
 use batten::operations::{Kind, Operation, Parameter, Value, Values, find};
 use glam::{DVec2, DVec3};
 use tempfile::TempDir;
@@ -371,7 +371,7 @@ impl Window {
 
     /// Export the document.
     pub fn export(&mut self, path: &Path, extension: &'static str, polygon: PolygonKind) {
-        told(self.editor.export(path, exporter(extension, polygon)));
+        told(self.editor.export(path, &exporter(extension, polygon)));
     }
 
     /// Add the curves of a file.
@@ -622,10 +622,10 @@ pub fn every_command() -> Vec<Command> {
 }
 
 /// The export to files with an extension, of a polygon where the format lets one choose.
-pub fn exporter(extension: &str, polygon: PolygonKind) -> Exporter {
+pub fn exporter(extension: &str, polygon: PolygonKind) -> ExportChoice {
     let mut exporters = formats::exporters()
         .into_iter()
         .filter(|it| it.format.extension() == extension);
     let exporter = exporters.find(|it| it.row.polygon.is_none_or(|kind| kind == polygon));
-    exporter.expect("an export")
+    ExportChoice::of(exporter.expect("an export"))
 }

@@ -90,7 +90,8 @@ fn keys_that_open_dialogs_take_a_drag_back() {
 #[test]
 fn typing_replaces_the_name_that_is_proposed_for_a_file() {
     let mut window = open_window();
-    choose(&mut window, &["File", "Export", "Export DXF…"]);
+    choose(&mut window, &["File", "Export as", "Export DXF…"]);
+    press(&mut window, Modifiers::NONE, Key::Enter);
     window.event(Event::Text("hull".to_owned()));
     window.run();
     let field = window.get_by_label("Path");

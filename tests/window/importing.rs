@@ -45,6 +45,10 @@ fn layers_kinds_and_units_of_a_drawing_are_chosen_before_it_comes_in() {
 #[test]
 fn a_plain_drawing_says_what_came_and_leads_to_the_panel() {
     let mut window = open_window();
+    choose(
+        &mut window,
+        &["Edit", "Document unit", "Document unit: millimetres"],
+    );
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("plain.dxf");
     std::fs::write(&path, dxf(Some(4), &LINES[..2], 0)).expect("the file");

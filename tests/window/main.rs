@@ -7,6 +7,7 @@ mod drawing;
 #[path = "../common/drawings.rs"]
 mod drawings;
 mod editing;
+mod exporting;
 mod expressions;
 mod fields;
 mod files;
@@ -104,7 +105,8 @@ fn the_main_job_through_the_window() {
     assert_eq!(saved[0].polygon, dragged.polygon, "numbers survive exactly");
 
     let path = folder.path().join("dragged.dxf");
-    choose(&mut window, &["File", "Export", "Export DXF…"]);
+    choose(&mut window, &["File", "Export as", "Export DXF…"]);
+    click(&mut window, "Export…");
     answer(&mut window, &path);
     let drawing = std::fs::read_to_string(&path).expect("the export");
     assert!(drawing.contains("SPLINE"));

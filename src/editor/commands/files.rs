@@ -8,7 +8,7 @@ use crate::editor::jobs::file_reading::{FilesToRead, Purpose};
 use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork, Filing};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::view::{Look, Viewport};
-use crate::io::Exporter;
+use crate::io::ExportChoice;
 use crate::io::examples::EXAMPLES;
 
 impl Editor {
@@ -84,27 +84,6 @@ impl Editor {
         self.start_file_task(FileTask::Read(FilesToRead::new(paths, Purpose::Import)))
     }
 
-    /// Ask again what to take of the files of other programs that came in last. What they made is taken back when the
-    /// answer comes, unless something else was done since.
-    ///
-    /// # Errors
-    /// [`Refusal`] if there are none, or they cannot be read.
-    pub fn choose_import(&mut self) -> Reply {
-        let is_last = |files: &FilesToRead| files.retakes == Some(self.workspace.revision());
-        match self.filing.imported.clone() {
-            Some(files) => self.start_file_task(FileTask::Read(FilesToRead {
-                asks: true,
-                // What was done since would be lost with the document.
-                purpose: match is_last(&files) {
-                    true => files.purpose,
-                    false => Purpose::Import,
-                },
-                ..files
-            })),
-            None => self.tell(Err(Refusal::from("Nothing came in to choose from"))),
-        }
-    }
-
     /// Save the document without the preview, which goes on.
     ///
     /// # Errors
@@ -130,16 +109,18 @@ impl Editor {
         }
     }
 
-    /// Export the visible curves and references without the preview, which goes on. The reply names
-    /// what the format cannot hold.
+    /// Export what is chosen without the preview, which goes on. The reply names what the format cannot hold. The
+    /// document keeps the choice for the next export.
     ///
     /// # Errors
-    /// [`Refusal`] if they cannot be written.
-    pub fn export(&mut self, path: &Path, exporter: Exporter) -> Reply {
+    /// [`Refusal`] if it cannot be written.
+    pub fn export(&mut self, path: &Path, choice: &ExportChoice) -> Reply {
+        self.filing.keep_export(choice.clone(), &self.workspace);
         self.start_file_task(FileTask::Export {
             path: path.to_owned(),
-            exporter,
+            choice: Box::new(choice.clone()),
             document: self.workspace.settled().clone(),
+            selected: self.hand.selection.items(),
         })
     }
 
@@ -215,7 +196,9 @@ impl Editor {
                 let (path, fingerprint) = own.unzip();
                 self.replace(document, path);
                 self.workspace.set_fingerprint(fingerprint);
-                Ok(self.imported(file, Note::told(text)))
+                Ok(self
+                    .filing
+                    .note_imported(file, Note::told(text), &self.workspace))
             }
             FileResult::Reloaded {
                 document,
@@ -262,17 +245,6 @@ impl Editor {
             }
             FileResult::Exported { text } => Ok(Note::told(text)),
         }
-    }
-
-    /// Keep the files of other programs that came in, and let the note offer to choose from them anew.
-    pub(in crate::editor) fn imported(&mut self, files: Option<FilesToRead>, note: Note) -> Note {
-        let note = note.offering_choice(files.is_some());
-        self.filing.imported = files.map(|files| FilesToRead {
-            retakes: Some(self.workspace.revision()),
-            asks: false,
-            ..files
-        });
-        note
     }
 
     /// Make edits that add items as one step, and make the first of them active.

@@ -43,6 +43,10 @@ impl Editor {
                 files.asks = false;
                 return self.start_file_task(FileTask::Read(files));
             }
+            (Some(FileAnswer::Anew), ..) => match self.filing.choosing_anew(&self.workspace) {
+                Some(files) => return self.start_file_task(FileTask::Read(files)),
+                None => Err(Refusal::from("Nothing came in to choose from")),
+            },
             (None, Some(question), ..) if question.has_retaken => {
                 self.workspace.redo();
                 self.document_changed();
@@ -97,13 +101,17 @@ impl Editor {
                 let files = incoming.documents.len();
                 let text = format!("{counted} read from {files} files");
                 let note = Note::told(with_lines(text, &lines));
-                Ok(self.imported(incoming.files, note))
+                Ok(self
+                    .filing
+                    .note_imported(incoming.files, note, &self.workspace))
             }
             Purpose::Import => {
                 self.add("Import curves", merged.edits)?;
                 self.look(Look::All);
                 let note = Note::done(with_lines(format!("{counted} added"), &lines));
-                Ok(self.imported(incoming.files, note))
+                Ok(self
+                    .filing
+                    .note_imported(incoming.files, note, &self.workspace))
             }
             Purpose::Paste => {
                 // Matches are not pasted.

@@ -87,6 +87,9 @@ pub enum FileAnswer {
     Columns(ColumnChoice),
     /// What is taken of each file of another program.
     Import(Vec<ImportChoice>),
+    /// Without a question: ask again what to take of the files of other programs that came in last. What they made is
+    /// taken back when the answer to that comes, unless something else was done since.
+    Anew,
 }
 
 /// A reason why a file is not read.

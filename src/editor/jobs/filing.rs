@@ -5,21 +5,29 @@ use std::path::{Path, PathBuf};
 use super::Client;
 use super::autosaving::Autosaver;
 use super::edited_file::EditedFile;
+use super::exporting::{ExportForecast, ExportRequest, Exported, Forecasting, exported};
 use super::file_reading::{ColumnQuestion, FilesToRead, ImportQuestion, Purpose, ReadFile, Unread};
 use super::patience::Patience;
-use crate::document::{Curve, Document, Reference, quoted};
-use crate::editor::reply::{Refusal, Reply, with_lines};
+use crate::document::{CurveId, Document, quoted};
+use crate::editor::reply::{Note, Refusal, Reply, with_lines};
+use crate::editor::selection::Selection;
 use crate::editor::workspace::Workspace;
-use crate::geometry::counted;
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::{Progress, counted};
 use crate::io::{
-    Exporter, FileError, Fingerprint, PROJECT, counted_items, disk, formats, shown_path,
+    ExportChoice, FileError, Fingerprint, PROJECT, Scope, counted_items, disk, formats, shown_path,
 };
 
 /// Read and write files, and watch the document's own file.
 #[derive(Debug, Default)]
 pub struct Filing {
     client: Client<FileWork, Result<FileResult, Refusal>>,
+    /// Foresees what an export would write and lose.
+    forecasting: Forecasting,
+    /// The export that is to be foreseen.
+    foreseen: Option<ExportChoice>,
+    /// The last export of the document, with the number of its opening.
+    last_export: Option<(u64, ExportChoice)>,
     /// Looks at the document's file for changes by other programs.
     watch: Client<PathBuf, Fingerprint>,
     /// The file that the program was started to edit.
@@ -67,11 +75,12 @@ pub(in crate::editor) enum FileTask {
         document: Document,
         known: Option<Fingerprint>,
     },
-    /// Write the visible curves and references.
+    /// Write what is chosen.
     Export {
         path: PathBuf,
-        exporter: Exporter,
+        choice: Box<ExportChoice>,
         document: Document,
+        selected: Vec<CurveId>,
     },
 }
 
@@ -160,7 +169,52 @@ impl Filing {
         wake: impl Fn() + Clone + Send + 'static,
     ) {
         self.client = Client::background("files", wake.clone());
+        self.forecasting = Client::background("export forecast", wake.clone());
         self.watch = Client::background("file watch", wake);
+    }
+
+    /// The choice of the document's last export.
+    pub fn last_export(&self, workspace: &Workspace) -> Option<&ExportChoice> {
+        let (opening, choice) = self.last_export.as_ref()?;
+        (*opening == workspace.opening()).then_some(choice)
+    }
+
+    /// Keep a choice as that of the document's last export.
+    pub fn keep_export(&mut self, choice: ExportChoice, workspace: &Workspace) {
+        self.last_export = Some((workspace.opening(), choice));
+    }
+
+    /// Foresee an export from the next frame on; without a choice foresee nothing.
+    pub fn foresee_export(&mut self, choice: Option<&ExportChoice>) {
+        self.foreseen = choice.cloned();
+    }
+
+    /// Work out the export that is to be foreseen, unless that is known.
+    pub(in crate::editor) fn forecast(
+        &mut self,
+        workspace: &Workspace,
+        selection: &Selection,
+        patience: &mut Patience,
+    ) {
+        let request = self.foreseen.clone().map(|choice| ExportRequest {
+            choice,
+            selected: selection.items(),
+            state: [workspace.revision(), workspace.opening()],
+        });
+        let job = |request: ExportRequest| {
+            let document = workspace.settled().clone();
+            move |progress: &Progress| request.forecast(&document, progress)
+        };
+        self.forecasting.advance(request, Some(patience), job);
+    }
+
+    /// What the export that is foreseen would write and lose; `None` while that is worked out.
+    pub fn export_forecast(&self) -> Option<Result<&ExportForecast, &Refusal>> {
+        let request = self.forecasting.request()?;
+        let known = self.forecasting.result();
+        known
+            .filter(|_| self.foreseen.as_ref() == Some(&request.choice))
+            .map(Result::as_ref)
     }
 
     /// Take the final reply to the last request for files, once it is there.
@@ -185,6 +239,37 @@ impl Filing {
     /// [`Editor::answer_files`](crate::editor::Editor::answer_files) chooses what is taken.
     pub fn import_question(&self) -> Option<&ImportQuestion> {
         self.import_question.as_deref()
+    }
+
+    /// Keep the files of other programs that came in, and let the note offer to choose from them anew.
+    pub(in crate::editor) fn note_imported(
+        &mut self,
+        files: Option<FilesToRead>,
+        note: Note,
+        workspace: &Workspace,
+    ) -> Note {
+        let note = note.offering_choice(files.is_some());
+        self.imported = files.map(|files| FilesToRead {
+            retakes: Some(workspace.revision()),
+            asks: false,
+            ..files
+        });
+        note
+    }
+
+    /// The files of other programs that came in last, to be asked about again.
+    pub(in crate::editor) fn choosing_anew(&self, workspace: &Workspace) -> Option<FilesToRead> {
+        let files = self.imported.clone()?;
+        let is_last = files.retakes == Some(workspace.revision());
+        Some(FilesToRead {
+            asks: true,
+            // What was done since would be lost with the document.
+            purpose: match is_last {
+                true => files.purpose,
+                false => Purpose::Import,
+            },
+            ..files
+        })
     }
 
     /// Whether files of other programs came in, to be chosen anew.
@@ -392,9 +477,10 @@ impl FileTask {
             } => write_back(&edited, document, known),
             Self::Export {
                 path,
-                exporter,
+                choice,
                 document,
-            } => export_visible(&path, exporter, &document),
+                selected,
+            } => export(&path, &choice, &document, &selected),
         }
     }
 }
@@ -501,43 +587,38 @@ fn write_back(
     })
 }
 
-fn export_visible(
+fn export(
     path: &Path,
-    exporter: Exporter,
+    choice: &ExportChoice,
     document: &Document,
+    selected: &[CurveId],
 ) -> Result<FileResult, Refusal> {
-    let extension = exporter.format.extension();
+    let extension = choice.format.extension();
     let path = with_extension(path, extension);
     let shown = shown_path(&path);
     let format = formats::to_write(&path).map_err(|error| format!("{shown}: {error}"))?;
-    if format != exporter.format {
+    if format != choice.format {
         return Err(Refusal(format!(
             "{shown}: that would be a {format}: give it the extension .{extension}"
         )));
     }
-    let curves = document.curves().map(|(_, curve)| Curve::clone(curve));
-    let (visible, hidden): (Vec<Curve>, Vec<Curve>) = curves.partition(|curve| curve.visible);
-    let references = document.references().map(|(_, it)| Reference::clone(it));
-    let references: Vec<Reference> = references.filter(|it| it.visible).collect();
-    if visible.is_empty() && references.is_empty() {
-        return Err(Refusal::from(
-            "Everything is hidden: show the curves to export",
-        ));
-    }
-    let mut text = format!(
-        "{} exported to {shown}",
-        counted(visible.len(), "curve", "curves")
-    );
-    if !hidden.is_empty() {
-        let hidden = counted(hidden.len(), "hidden curve", "hidden curves");
+    let Exported {
+        export,
+        counts: [curves, references],
+        told,
+    } = exported(choice, document, selected, &Progress::default())?;
+    let mut text = match curves {
+        0 => counted_items(curves, references),
+        _ => counted(curves, "curve", "curves"),
+    };
+    text += &format!(" exported to {shown}");
+    let rest = document.curves().count() - curves;
+    if rest > 0 && choice.scope == Scope::Visible {
+        let hidden = counted(rest, "hidden curve", "hidden curves");
         text += &format!("; {hidden} skipped");
     }
-    let exported = Document::from_curves(visible)
-        .with_references(references)
-        .with_unit(document.unit())
-        .with_extras(document.extras().clone());
-    let mut saved = disk::write_document(&path, &exported, exporter.row.polygon)?;
-    saved.losses.add_matches(document, |curve| curve.visible);
+    let saved = disk::write_export(&path, export)?;
+    let text = told.iter().fold(text, with_lines);
     Ok(FileResult::Exported {
         text: with_lines(text, &saved),
     })

@@ -6,6 +6,7 @@ mod worker;
 pub(in crate::editor) mod autosaving;
 pub(in crate::editor) mod comparing;
 pub(in crate::editor) mod edited_file;
+pub(in crate::editor) mod exporting;
 pub(in crate::editor) mod file_reading;
 pub(in crate::editor) mod filing;
 pub(in crate::editor) mod foreseeing;

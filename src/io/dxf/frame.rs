@@ -36,6 +36,16 @@ pub(super) struct Layer {
 impl Layer {
     /// Make the layer of a curve, or of one of its polygons.
     pub(super) fn of(curve: &Curve, name: String, polygon: Option<PolygonKind>) -> Self {
+        Self::new(name, polygon, curve.visible, curve.locked)
+    }
+
+    /// Make a layer, of polygons if a kind is given.
+    pub(super) fn new(
+        name: String,
+        polygon: Option<PolygonKind>,
+        visible: bool,
+        locked: bool,
+    ) -> Self {
         Self {
             name,
             // AutoCAD's numbers: 7 is black or white, whatever the background is not.
@@ -45,8 +55,8 @@ impl Layer {
                 Some(PolygonKind::Clamped) => 3,
                 Some(PolygonKind::Bezier) => 6,
             },
-            visible: curve.visible,
-            locked: curve.locked,
+            visible,
+            locked,
         }
     }
 }

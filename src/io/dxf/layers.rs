@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::frame::Layer;
-use crate::document::{Curve, Group};
+use crate::document::{Curve, Group, Reference};
 use crate::geometry::PolygonKind;
 use crate::io::layer_names::LayerNames;
 
@@ -19,6 +19,8 @@ pub(super) struct Layers<'a> {
     kinds: &'a [PolygonKind],
     names: LayerNames,
     shared: HashMap<Shared, String>,
+    /// The layers of groups of references.
+    references: HashMap<Shared, String>,
     list: Vec<Layer>,
 }
 
@@ -29,6 +31,7 @@ impl<'a> Layers<'a> {
             kinds,
             names: LayerNames::new(),
             shared: HashMap::new(),
+            references: HashMap::new(),
             list: Vec::new(),
         }
     }
@@ -49,6 +52,29 @@ impl<'a> Layers<'a> {
         }
         let layer = self.add(curve, &group_name(curve));
         self.shared.insert(shared, layer.clone());
+        layer
+    }
+
+    /// The layer of a reference: that of its group, or one of its name.
+    pub(super) fn take_reference(&mut self, reference: &Reference) -> String {
+        let path = reference.group.names().join(SEPARATOR);
+        let name = match reference.group.is_none() {
+            true => &reference.name,
+            false => &path,
+        };
+        let shared = (reference.group.clone(), reference.visible, reference.locked);
+        let known = self.references.get(&shared);
+        if let Some(layer) = known.filter(|_| !reference.group.is_none()) {
+            return layer.clone();
+        }
+        let layer = self.names.take(name, &PolygonKind::ALL.map(suffix));
+        self.list.push(Layer::new(
+            layer.clone(),
+            None,
+            reference.visible,
+            reference.locked,
+        ));
+        self.references.insert(shared, layer.clone());
         layer
     }
 

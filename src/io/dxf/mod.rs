@@ -6,13 +6,16 @@
 //! document, or that there is none.
 //! Numbers have the digits that it takes to read the very same number again.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::DVec3;
 
-use crate::document::{Curve, Document, Group};
+use crate::document::{Curve, Document, Group, Reference};
 use crate::geometry::{ClampedPolygon, PolygonKind};
 use crate::io::error::WriteError;
 use crate::io::exchange;
-use crate::io::format::{ExportRow, Format};
+use crate::io::exchange::drawing::{Conic, Nurbs, Shape};
+use crate::io::format::{ExportRow, Format, Writing};
 use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
 
@@ -38,7 +41,7 @@ pub static DXF: Format = Format {
         label: "Export DXF…",
         help: "Export curves as clamped splines, and both S-polygons on their own layers",
         icon: "share",
-        key: Some('e'),
+        key: None,
         polygon: None,
     }],
 };
@@ -49,8 +52,8 @@ const MOST_KNOTS: usize = i16::MAX as usize;
 /// The polygons that are drawn beside the curve unless one is chosen.
 const DRAWN: [PolygonKind; 2] = [PolygonKind::Float, PolygonKind::Clamped];
 
-/// Write curves as a drawing in the unit of the document. `polygon` chooses the one polygon that is
-/// drawn beside each curve; without it these are the float and the clamped one.
+/// Write curves as a drawing in the unit of the document, with polygons beside each: those that are listed, or the
+/// one that is chosen, or else the float and the clamped one.
 ///
 /// A periodic curve is opened at u = 0; its last vertex is exactly its first one. A hidden curve
 /// is on layers that are off, a locked one on layers that are locked.
@@ -59,15 +62,12 @@ const DRAWN: [PolygonKind; 2] = [PolygonKind::Float, PolygonKind::Clamped];
 /// [`WriteError`] if there are no curves, or one has more vertices than the format can count.
 fn write(
     document: &Document,
-    polygon: Option<PolygonKind>,
+    writing: &Writing,
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
-    let chosen = polygon.map(|kind| [kind]);
-    drawing(
-        document,
-        chosen.as_ref().map_or(&DRAWN, |kind| kind),
-        losses,
-    )
+    let chosen = writing.polygon.map(|kind| vec![kind]);
+    let listed = writing.beside.clone().or(chosen);
+    drawing(document, listed.as_deref().unwrap_or(&DRAWN), losses)
 }
 
 /// Write curves with some of their polygons beside each.
@@ -77,7 +77,8 @@ fn drawing(
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
     let format = DXF.name;
-    if document.curves().len() == 0 {
+    let is_drawn = |reference: &Reference| drawn_shape(reference).is_some();
+    if document.curves().len() == 0 && !document.references().any(|(_, it)| is_drawn(it)) {
         return Err(WriteError::NoCurves { format });
     }
     let mut layers = Layers::new(kinds);
@@ -103,14 +104,30 @@ fn drawing(
         }
         let base = layers.take(curve);
         report(curve, &base, kinds, losses);
-        spline(&mut entities, curve, &base, &mut reach);
+        spline(&mut entities, &clamped(curve), &base, &mut reach);
         for &kind in kinds {
             let layer = format!("{base}{}", layers::suffix(kind));
-            polyline(&mut entities, curve, kind, &layer, &mut reach);
+            let FilePolygon {
+                vertices, periodic, ..
+            } = FilePolygon::of(&curve.polygon, kind);
+            polyline(&mut entities, &vertices, periodic, &layer, &mut reach);
         }
     }
     for (_, reference) in document.references() {
-        losses.add_reference(reference);
+        let Some(shape) = drawn_shape(reference) else {
+            losses.add_reference(reference);
+            continue;
+        };
+        let layer = layers.take_reference(reference);
+        match shape {
+            Shape::Polyline { points, closed } => {
+                polyline(&mut entities, &points, closed, &layer, &mut reach);
+                losses.add_point_weights(reference);
+            }
+            Shape::Nurbs(nurbs) => spline(&mut entities, &nurbs, &layer, &mut reach),
+            Shape::Conic(conic) => ellipse(&mut entities, &conic, &layer, &mut reach),
+            Shape::Point(_) => {}
+        }
     }
     let reach = (reach.low, reach.high);
     let text = frame::drawing(layers.list(), entities, document.unit(), reach);
@@ -157,52 +174,110 @@ fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossRe
     }
 }
 
-fn spline(writer: &mut Writer, curve: &Curve, layer: &str, reach: &mut Reach) {
+/// The shape of a reference that a drawing can hold: points, splines, and arcs of ellipses in the plane.
+fn drawn_shape(reference: &Reference) -> Option<Shape> {
+    let (_, shape) = exchange::writing::shape(&reference.curve)?;
+    match &shape {
+        Shape::Conic(Conic { centre, x, y, .. }) => {
+            let is_planar = [centre, x, y].iter().all(|it| it.z == 0.0);
+            is_planar.then_some(shape)
+        }
+        _ => Some(shape),
+    }
+}
+
+/// The spline of a curve, on clamped knots.
+fn clamped(curve: &Curve) -> Nurbs {
     let clamped = ClampedPolygon::from_float(&curve.polygon);
-    let mut vertices = clamped.vertices().to_vec();
+    let mut points = clamped.vertices().to_vec();
     if curve.polygon.is_periodic()
-        && let (Some(first), Some(last)) = (vertices.first().copied(), vertices.last_mut())
+        && let (Some(first), Some(last)) = (points.first().copied(), points.last_mut())
     {
         *last = first;
     }
-    reach.add(&vertices);
-    let planar = curve.polygon.is_planar();
-    let knots = clamped.knots();
+    Nurbs {
+        degree: clamped.degree(),
+        knots: clamped.knots(),
+        points,
+        weights: clamped.weights().map(<[f64]>::to_vec),
+        periodic: false,
+    }
+}
+
+fn spline(writer: &mut Writer, nurbs: &Nurbs, layer: &str, reach: &mut Reach) {
+    reach.add(&nurbs.points);
+    let planar = nurbs.points.iter().all(|point| point.z == 0.0);
     writer.entity("SPLINE", layer);
     writer.text(100, "AcDbSpline");
     if planar {
         writer.point(210, DVec3::Z);
     }
-    let flags = 8 * i64::from(planar) + 4 * i64::from(clamped.weights().is_some());
+    let flags = 8 * i64::from(planar) + 4 * i64::from(nurbs.weights.is_some());
     writer.integer(70, flags);
-    writer.count(71, clamped.degree());
-    writer.count(72, knots.len());
-    writer.count(73, vertices.len());
+    writer.count(71, nurbs.degree);
+    writer.count(72, nurbs.knots.len());
+    writer.count(73, nurbs.points.len());
     writer.integer(74, 0);
     writer.number(42, 1e-9);
     writer.number(43, 1e-9);
-    for knot in knots {
-        writer.number(40, knot);
+    for knot in &nurbs.knots {
+        writer.number(40, *knot);
     }
-    for weight in clamped.weights().into_iter().flatten() {
+    for weight in nurbs.weights.iter().flatten() {
         writer.number(41, *weight);
     }
-    for vertex in vertices {
-        writer.point(10, vertex);
+    for point in &nurbs.points {
+        writer.point(10, *point);
     }
 }
 
-fn polyline(writer: &mut Writer, curve: &Curve, kind: PolygonKind, layer: &str, reach: &mut Reach) {
-    let polygon = FilePolygon::of(&curve.polygon, kind);
-    let closed = i64::from(polygon.periodic);
-    reach.add(&polygon.vertices);
-    if curve.polygon.is_planar() {
+/// An arc of an ellipse in the plane, anticlockwise from its longer half-axis.
+fn ellipse(writer: &mut Writer, conic: &Conic, layer: &str, reach: &mut Reach) {
+    let Conic {
+        centre,
+        mut x,
+        mut y,
+        mut from,
+        mut to,
+    } = *conic;
+    if x.cross(y).z < 0.0 {
+        (y, from, to) = (-y, -to, -from);
+    }
+    if y.length() > x.length() {
+        (x, y, from, to) = (y, -x, from - FRAC_PI_2, to - FRAC_PI_2);
+    }
+    reach.add(&[
+        centre - x - y,
+        centre + x + y,
+        centre - x + y,
+        centre + x - y,
+    ]);
+    writer.entity("ELLIPSE", layer);
+    writer.text(100, "AcDbEllipse");
+    writer.point(10, centre);
+    writer.point(11, x);
+    writer.point(210, DVec3::Z);
+    writer.number(40, y.length() / x.length());
+    writer.number(41, from);
+    writer.number(42, to);
+}
+
+fn polyline(
+    writer: &mut Writer,
+    vertices: &[DVec3],
+    is_closed: bool,
+    layer: &str,
+    reach: &mut Reach,
+) {
+    let closed = i64::from(is_closed);
+    reach.add(vertices);
+    if vertices.iter().all(|vertex| vertex.z == 0.0) {
         writer.entity("LWPOLYLINE", layer);
         writer.text(100, "AcDbPolyline");
-        writer.count(90, polygon.vertices.len());
+        writer.count(90, vertices.len());
         writer.integer(70, closed);
         writer.number(43, 0.0);
-        for vertex in polygon.vertices {
+        for vertex in vertices {
             writer.number(10, vertex.x);
             writer.number(20, vertex.y);
         }
@@ -213,11 +288,11 @@ fn polyline(writer: &mut Writer, curve: &Curve, kind: PolygonKind, layer: &str, 
     writer.integer(66, 1);
     writer.point(10, DVec3::ZERO);
     writer.integer(70, 8 + closed);
-    for vertex in polygon.vertices {
+    for vertex in vertices {
         writer.part("VERTEX", owner, layer);
         writer.text(100, "AcDbVertex");
         writer.text(100, "AcDb3dPolylineVertex");
-        writer.point(10, vertex);
+        writer.point(10, *vertex);
         writer.integer(70, 32);
     }
     writer.part("SEQEND", owner, layer);

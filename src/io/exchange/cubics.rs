@@ -31,10 +31,11 @@ pub(super) struct Cubics {
 }
 
 impl Cubics {
-    /// Find the fewest Béziers within 1e-4 of the size of a planar curve, whose joints lie on the curve, with its
-    /// tangents there.
-    pub(super) fn along(polygon: &FloatPolygon) -> Self {
-        let tolerance = WITHIN * BezierPolygon::from_float(polygon).size();
+    /// Find the fewest Béziers within a length, or 1e-4 of its size, of a planar curve, whose joints lie on the curve,
+    /// with its tangents there.
+    pub(super) fn along(polygon: &FloatPolygon, within: Option<f64>) -> Self {
+        let size = BezierPolygon::from_float(polygon).size();
+        let tolerance = within.unwrap_or(WITHIN * size);
         let path = fit_to_bezpath_opt(&Source(polygon), tolerance);
         let mut points = path.segments().fold(Vec::new(), |mut points, segment| {
             let cubic = segment.to_cubic();
@@ -140,7 +141,7 @@ mod tests {
                 .map(|(x, y)| DVec3::new(*x, *y, 0.0))
                 .collect();
             let polygon = FloatPolygon::new(degree, vertices, None, periodic).expect("a polygon");
-            let found = Cubics::along(&polygon);
+            let found = Cubics::along(&polygon, None);
             let size = BezierPolygon::from_float(&polygon).size();
             assert!(found.off <= 2.0 * WITHIN * size, "{degree}: {}", found.off);
             assert!((2..=24).contains(&found.count), "{degree}: {}", found.count);

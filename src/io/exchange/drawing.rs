@@ -193,6 +193,21 @@ pub struct Unreadable {
     pub reason: String,
 }
 
+impl Other {
+    /// Name it with its count and the place of the first one.
+    pub(super) fn told(&self, is_binary: bool) -> String {
+        let place = match is_binary {
+            true => "byte",
+            false => "line",
+        };
+        let (count, kind, at) = (self.count, &self.kind, self.at);
+        match count {
+            1 => format!("1 {kind} at {place} {at}"),
+            _ => format!("{count} {kind}, the first at {place} {at}"),
+        }
+    }
+}
+
 /// A placement of a part of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine {

@@ -6,7 +6,7 @@ use super::{brep, curve_json, glif, iges, obj, step, svg, threedm};
 use crate::document::Document;
 use crate::geometry::PolygonKind;
 use crate::io::error::WriteError;
-use crate::io::format::{ExportRow, Format};
+use crate::io::format::{ExportRow, Format, Writing};
 use crate::io::loss::LossReport;
 
 /// Writes a drawing of some name.
@@ -30,8 +30,8 @@ pub static STEP: Format = Format {
     name: "STEP",
     extensions: &["step", "stp", "p21"],
     draw: Some(step::read),
-    write: Some(|document, knots, losses| {
-        written(document, knots, losses, joined, |drawing, name| {
+    write: Some(|document, writing, losses| {
+        written(document, writing, losses, joined, |drawing, name| {
             step::write(drawing, name, step::Protocol::Ap214)
         })
     }),
@@ -50,8 +50,8 @@ pub static STEP_AP242: Format = Format {
     name: "STEP AP242",
     extensions: &["ap242"],
     draw: Some(step::read),
-    write: Some(|document, knots, losses| {
-        written(document, knots, losses, joined, |drawing, name| {
+    write: Some(|document, writing, losses| {
+        written(document, writing, losses, joined, |drawing, name| {
             step::write(drawing, name, step::Protocol::Ap242)
         })
     }),
@@ -63,7 +63,9 @@ pub static IGES: Format = Format {
     name: "IGES",
     extensions: &["igs", "iges"],
     draw: Some(iges::read),
-    write: Some(|document, knots, losses| written(document, knots, losses, joined, iges::write)),
+    write: Some(|document, writing, losses| {
+        written(document, writing, losses, joined, iges::write)
+    }),
     exports: &[ExportRow {
         label: "Export IGES…",
         help: "Export curves as B-splines for older CAD programs",
@@ -79,8 +81,14 @@ pub static THREEDM: Format = Format {
     name: "3DM",
     extensions: &["3dm"],
     draw: Some(threedm::read),
-    write: Some(|document, knots, losses| {
-        written(document, knots, losses, threedm::kept_group, threedm::write)
+    write: Some(|document, writing, losses| {
+        written(
+            document,
+            writing,
+            losses,
+            threedm::kept_group,
+            threedm::write,
+        )
     }),
     exports: &[ExportRow {
         label: "Export 3DM…",
@@ -97,10 +105,10 @@ pub static SVG: Format = Format {
     name: "SVG",
     extensions: &["svg"],
     draw: Some(svg::read),
-    write: Some(|document, _, losses| {
+    write: Some(|document, writing, losses| {
         drawn(
             document,
-            Written::Cubics,
+            Written::Cubics(writing.tolerance),
             losses,
             svg::kept_group,
             svg::write,
@@ -122,7 +130,10 @@ pub static GLIF: Format = Format {
     extensions: &["glif"],
     draw: Some(glif::read),
     is_unitless: true,
-    write: Some(|document, _, losses| drawn(document, Written::Cubics, losses, none, glif::write)),
+    write: Some(|document, writing, losses| {
+        let cubics = Written::Cubics(writing.tolerance);
+        drawn(document, cubics, losses, none, glif::write)
+    }),
     ..NONE
 };
 
@@ -131,8 +142,8 @@ pub static OBJ: Format = Format {
     name: "OBJ",
     extensions: &["obj"],
     draw: Some(obj::read),
-    write: Some(|document, knots, losses| {
-        written(document, knots, losses, obj::kept_group, obj::write)
+    write: Some(|document, writing, losses| {
+        written(document, writing, losses, obj::kept_group, obj::write)
     }),
     ..NONE
 };
@@ -142,8 +153,8 @@ pub static BREP: Format = Format {
     name: "BREP",
     extensions: &["brep", "brp"],
     draw: Some(brep::read),
-    write: Some(|document, knots, losses| {
-        written(document, knots, losses, none, |drawing, name| {
+    write: Some(|document, writing, losses| {
+        written(document, writing, losses, none, |drawing, name| {
             brep::write(&drawing.in_millimetres(), name)
         })
     }),
@@ -155,10 +166,10 @@ pub static CURVE_JSON: Format = Format {
     name: "JSON",
     extensions: &["json"],
     draw: Some(curve_json::read),
-    write: Some(|document, knots, losses| {
+    write: Some(|document, writing, losses| {
         written(
             document,
-            knots,
+            writing,
             losses,
             <[String]>::to_vec,
             curve_json::write,
@@ -180,12 +191,12 @@ fn none(_: &[String]) -> Vec<String> {
 /// Write a document on the knots of a polygon; without a choice on clamped ones.
 fn written(
     document: &Document,
-    knots: Option<PolygonKind>,
+    writing: &Writing,
     losses: &mut LossReport,
     kept: KeptGroup,
     write: WriteDrawing,
 ) -> Result<Vec<u8>, WriteError> {
-    let knots = knots.unwrap_or(PolygonKind::Clamped);
+    let knots = writing.polygon.unwrap_or(PolygonKind::Clamped);
     drawn(document, Written::Knots(knots), losses, kept, write)
 }
 

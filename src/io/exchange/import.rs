@@ -5,9 +5,10 @@ use std::collections::{HashMap, HashSet};
 use glam::DVec3;
 use thiserror::Error;
 
+use super::choice::free_space;
+pub use super::choice::{ImportChoice, RowKey};
 use super::drawing::{Drawing, Item, Kind, Other, Shape, Space};
 use super::reading::Made;
-use crate::document::Group;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{ParametricCurve, significant};
 
@@ -21,19 +22,8 @@ const STEPS: usize = 16;
 /// The digits of a size.
 const DIGITS: usize = 4;
 
-/// The name of items that are on no layer.
-const NO_LAYER: &str = "no layer";
-
-/// Items of one kind on one layer.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct RowKey {
-    /// Where they belong.
-    pub space: Space,
-    /// The path of the layer, outermost first; empty for none.
-    pub layer: Vec<String>,
-    /// The entity of the file.
-    pub kind: Kind,
-}
+/// Sizes that are written as whole numbers.
+const PLAIN: std::ops::Range<f64> = 1e4..1e7;
 
 /// What a file holds of one kind on one layer.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,19 +63,6 @@ pub struct Found {
     pub is_binary: bool,
 }
 
-/// What is taken of a file of another program, and how.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct ImportChoice {
-    /// The kinds and layers that are taken.
-    pub taken: HashSet<RowKey>,
-    /// The unit of a file that says none.
-    pub unit: Option<LengthUnit>,
-    /// Whether float polygons are made of smooth references too.
-    pub to_float: bool,
-    /// How far these may be off, in the unit of the file; without it 1e-4 of their size.
-    pub tolerance: Option<f64>,
-}
-
 /// What to take, by names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImportFilter {
@@ -116,25 +93,6 @@ pub enum FilterError {
         /// The kinds and layers of the file.
         known: String,
     },
-}
-
-impl RowKey {
-    /// The key of an item.
-    pub(super) fn of(item: &Item) -> Self {
-        Self {
-            space: item.space,
-            layer: item.group.clone(),
-            kind: item.kind,
-        }
-    }
-
-    /// The layer as a path, with `/` between names.
-    pub fn layer_name(&self) -> String {
-        match self.layer.is_empty() {
-            true => NO_LAYER.to_owned(),
-            false => Group::new(&self.layer).to_string(),
-        }
-    }
 }
 
 impl FoundRow {
@@ -374,29 +332,16 @@ impl Found {
     }
 }
 
-impl Other {
-    /// Name it with its count and the place of the first one.
-    pub(super) fn told(&self, is_binary: bool) -> String {
-        let place = match is_binary {
-            true => "byte",
-            false => "line",
-        };
-        let (count, kind, at) = (self.count, &self.kind, self.at);
-        match count {
-            1 => format!("1 {kind} at {place} {at}"),
-            _ => format!("{count} {kind}, the first at {place} {at}"),
-        }
-    }
-}
-
 /// Tell the sides of a box in a unit: two in the plane, three in space.
 pub fn size_told([low, high]: [DVec3; 2], factor: f64, unit: Option<LengthUnit>) -> String {
     let sides = factor * (high - low);
     let axes = if sides.z == 0.0 { 2 } else { 3 };
     let sides = sides.to_array().into_iter().take(axes);
-    let sides: Vec<String> = sides
-        .map(|side| trimmed(significant(side, DIGITS)))
-        .collect();
+    let sides = sides.map(|side| match PLAIN.contains(&side) {
+        true => format!("{side:.0}"),
+        false => trimmed(significant(side, DIGITS)),
+    });
+    let sides: Vec<String> = sides.collect();
     LengthUnit::behind(unit, sides.join(" × "))
 }
 
@@ -405,15 +350,6 @@ fn trimmed(text: String) -> String {
     match text.contains('.') && !text.contains('e') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
-    }
-}
-
-/// The space of which items are taken unless others are chosen.
-pub(super) fn free_space(spaces: impl Iterator<Item = Space> + Clone) -> Space {
-    let has = |space: Space| spaces.clone().any(|it| it == space);
-    match has(Space::Edge) && !has(Space::Model) {
-        true => Space::Edge,
-        false => Space::Model,
     }
 }
 
@@ -610,6 +546,8 @@ mod tests {
                 "4 × 4"
             ]
         );
+        let large = [DVec3::ZERO, DVec3::new(120_000.0, 45.5, 0.0)];
+        assert_eq!(size_told(large, 1.0, None), "120000 × 45.5");
         let inches = told(Some(LengthUnit::Inch));
         assert_eq!(inches[0], "4 × 4 mm = 0.1575 × 0.1575 in");
         assert_eq!(inches.len(), 4, "numbers without a unit count in inches");

@@ -2,6 +2,7 @@
 //! references are taken; each writer makes bytes of one.
 
 mod brep;
+mod choice;
 mod conic_frame;
 mod cubics;
 mod curve_json;
@@ -23,5 +24,5 @@ mod splines;
 mod step;
 mod svg;
 mod threedm;
-mod writing;
+pub(super) mod writing;
 mod xml;

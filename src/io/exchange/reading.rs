@@ -4,8 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use glam::{DMat3, DQuat, DVec3};
 
+use super::choice::{ImportChoice, RowKey, free_space};
 use super::drawing::{Affine, Conic, Drawing, Item, Kind, Nurbs as DrawnNurbs, Shape, Space};
-use super::import::{ImportChoice, RowKey, free_space};
 use crate::document::{Colour, Curve, Group, Reference};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{

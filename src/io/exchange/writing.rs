@@ -17,8 +17,8 @@ pub(super) type KeptGroup = fn(&[String]) -> Vec<String>;
 pub(super) enum Written {
     /// On the knots of one of their polygons.
     Knots(PolygonKind),
-    /// As Béziers up to degree 3; other planar curves as the fewest cubics near them.
-    Cubics,
+    /// As Béziers up to degree 3; other planar curves as the fewest cubics within a length, or 1e-4 of their size.
+    Cubics(Option<f64>),
 }
 
 impl Drawing {
@@ -76,12 +76,12 @@ impl Written {
         let polygon = &curve.polygon;
         let is_cubic = polygon.degree() <= CUBIC && !polygon.is_rational();
         match self {
-            Self::Cubics if polygon.is_planar() && !is_cubic => {
-                let Cubics { chain, count, off } = Cubics::along(polygon);
+            Self::Cubics(within) if polygon.is_planar() && !is_cubic => {
+                let Cubics { chain, count, off } = Cubics::along(polygon, within);
                 losses.add(curve, Loss::Cubics { count, off });
                 Shape::Nurbs(chain)
             }
-            Self::Cubics => spline(curve, PolygonKind::Bezier, losses),
+            Self::Cubics(_) => spline(curve, PolygonKind::Bezier, losses),
             Self::Knots(kind) => spline(curve, kind, losses),
         }
     }
@@ -154,7 +154,7 @@ fn spline(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> Shape {
 }
 
 /// A reference as other programs know it; `None` for formulas and spirals.
-fn shape(curve: &ReferenceCurve) -> Option<(Kind, Shape)> {
+pub(in crate::io) fn shape(curve: &ReferenceCurve) -> Option<(Kind, Shape)> {
     let placement = curve.placement();
     match curve.form() {
         ReferenceForm::Points(list) => {

@@ -206,10 +206,10 @@ fn matches_of_references_that_are_not_there_are_refused() {
 
 #[test]
 fn other_formats_tell_that_references_are_not_exported() {
-    let circle = ReferenceCurve::from_text("circle").unwrap();
+    let spiral = ReferenceCurve::from_text("clothoid:a=3").unwrap();
     let polygon = FloatPolygon::planar(1, &[(0.0, 0.0), (1.0, 1.0)]).unwrap();
     let document = Document::from_curves([Curve::new("line", polygon)])
-        .with_references([Reference::new("round", circle)]);
+        .with_references([Reference::new("round", spiral)]);
     for (format, name) in [(&TABLE, "CSV table"), (&DXF, "DXF")] {
         let export = format.write(&document, None).unwrap();
         let told = export.losses.to_string();

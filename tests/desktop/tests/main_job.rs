@@ -91,6 +91,8 @@ fn the_main_job_end_to_end() -> Result<()> {
 fn export(window: &mut Window, curve: &Curve) -> Result<()> {
     let path = window.folder().join("arc.dxf");
     window.key(Key::E, Modifiers::COMMAND)?;
+    window.find_beginning("Export…")?;
+    window.key(Key::Enter, Modifiers::NONE)?;
     answer_prompt(window, &path)?;
     window.find_beginning("1 curve exported to")?;
     let drawing = std::fs::read_to_string(&path).context("the export")?;
