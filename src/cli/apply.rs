@@ -195,6 +195,7 @@ impl Application {
         match (inputs, second) {
             (Inputs::None | Inputs::UpToTwo, _) => choose(None, &[]),
             (Inputs::OneOrNone, _) if self.source.is_none() => choose(None, &[]),
+            (Inputs::References, _) if self.curves[0].is_none() => choose(None, &[]),
             (Inputs::Two, Some(second)) => self.with_second(document, &second, messages),
             (Inputs::Two, None) => {
                 let items = items(&document, inputs);
@@ -219,6 +220,7 @@ impl Application {
         match (&self.curves[place], &items[..]) {
             (_, []) => bail!(match inputs {
                 Inputs::OneOrNone => "there is neither a curve nor a reference",
+                Inputs::References => "there is no reference",
                 Inputs::Points => "there is neither a curve nor a list of points",
                 _ => no_curve(document),
             }),

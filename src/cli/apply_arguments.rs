@@ -235,7 +235,7 @@ impl Files {
     fn of(inputs: Inputs, paths: Vec<PathBuf>) -> Result<Self, String> {
         let most = match inputs {
             Inputs::None | Inputs::UpToTwo => 1,
-            Inputs::One | Inputs::OneOrNone | Inputs::Points => 2,
+            Inputs::One | Inputs::OneOrNone | Inputs::Points | Inputs::References => 2,
             Inputs::Two => 3,
         };
         if let Some(path) = paths.get(most) {
@@ -305,14 +305,17 @@ fn many_files(
 
 /// Whether an operation takes just one file, so that many can go through it.
 fn takes_one(inputs: Inputs) -> bool {
-    matches!(inputs, Inputs::One | Inputs::OneOrNone | Inputs::Points)
+    matches!(
+        inputs,
+        Inputs::One | Inputs::OneOrNone | Inputs::Points | Inputs::References
+    )
 }
 
 /// The usage of an operation: the files that it takes.
 fn usage(operation: &Operation) -> String {
     let files = match operation.inputs {
         Inputs::None | Inputs::UpToTwo => "<OUT>",
-        Inputs::One | Inputs::Points => "<IN> <OUT>",
+        Inputs::One | Inputs::Points | Inputs::References => "<IN> <OUT>",
         Inputs::OneOrNone => "<REFERENCE|IN> <OUT>",
         Inputs::Two => "<IN> [SECOND] <OUT>",
     };
@@ -338,6 +341,7 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         Inputs::One => (Some(CURVES), true, false),
         Inputs::Two => (Some(CURVES), true, true),
         Inputs::Points => (Some(POINTS), true, false),
+        Inputs::References => (Some(CURVES), true, false),
     };
     let command = Command::new(operation.name).about(operation.help);
     let mut command = command.override_usage(usage(operation));
@@ -384,6 +388,7 @@ pub(super) fn command_of(operation: &'static Operation) -> Command {
         let curve = match operation.inputs {
             Inputs::OneOrNone => "The curve or reference; needed where the file has several",
             Inputs::Points => "The curve or list of points; needed where the file has several",
+            Inputs::References => "The reference; without it all references",
             _ => "The curve; needed where the file has several",
         };
         command = command.arg(name_argument(CURVE, curve));

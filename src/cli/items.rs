@@ -7,10 +7,10 @@ use crate::operations::Inputs;
 
 /// The curves of a document, and the references that an operation can work on, with their names.
 pub(super) fn items(document: &Document, inputs: Inputs) -> Vec<(CurveId, &str)> {
-    let curves = document.curves();
+    let curves = document.curves().filter(|_| inputs != Inputs::References);
     let curves = curves.map(|(id, curve)| (id, curve.name.as_str()));
     let references = document.references().filter(|(_, reference)| match inputs {
-        Inputs::OneOrNone => true,
+        Inputs::OneOrNone | Inputs::References => true,
         Inputs::Points => reference.points().is_some(),
         _ => false,
     });
@@ -30,6 +30,7 @@ pub(super) fn found(
     let numbered = number.and_then(|number| items.get(number.checked_sub(1)?));
     let [one, several] = match inputs {
         Inputs::One | Inputs::Two => ["curve", "curves"],
+        Inputs::References => ["reference", "references"],
         _ => ["curve or reference", "curves and references"],
     };
     let name = quoted(name);

@@ -8,14 +8,15 @@ use crate::document::{Curve, CurveId, Document, Edit, Group, Reference, quoted};
 use crate::geometry::approximation::{
     Approximated, ApproximationRequest, Goal, MOST_SEGMENTS, Placing, approximate_to_tolerance,
 };
-use crate::geometry::references::{ReferenceCurve, ReferenceError, ReferenceForm};
+use crate::geometry::references::{Nurbs, ReferenceCurve, ReferenceForm};
 use crate::geometry::{MAX_DEGREE, ParametricCurve, Progress, counted, rounded_up};
 
 /// The tolerance without a wish, in units of a reference's size.
 const WITHIN: f64 = 1e-4;
 
-/// The least degree without a wish: lower ones need many vertices for the features of curvature.
-const LEAST: usize = 5;
+/// The least degrees that are tried without a wish. Kinks of the curvature at knots ask for a low one, smooth curves
+/// for a high one: the fewest vertices decide.
+const LEAST: [usize; 3] = [4, 5, 8];
 
 /// A larger angle between the directions before and after a knot is a corner, in radians: about 0.06°. Smaller ones
 /// come from programs that keep six or seven digits.
@@ -33,7 +34,7 @@ const STEPS: usize = 8;
 /// The float polygons that references get.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FloatWish {
-    /// The degree; without one that of a spline, at least 5.
+    /// The degree; without one, of some from 4 on and not below that of a spline, the one with the fewest vertices.
     pub degree: Option<usize>,
     /// How far they may be off; without it 1e-4 of a reference's size.
     pub tolerance: Option<f64>,
@@ -50,6 +51,8 @@ pub struct Floats {
     pub deviation: f64,
     /// Whether that is a proved bound; otherwise it is measured.
     pub is_bounded: bool,
+    /// The tolerance.
+    pub tolerance: f64,
     /// Whether it is within the tolerance.
     pub is_within: bool,
     /// Whether they have the features of the reference; `None` where these jump at knots, so that nothing is compared.
@@ -80,6 +83,7 @@ pub fn floats_of(
         vertices: 0,
         deviation: 0.0,
         is_bounded: true,
+        tolerance,
         is_within: true,
         keeps_features: Some(true),
     };
@@ -178,6 +182,8 @@ impl Floats {
     }
 }
 
+/// The float polygon within the tolerance that has the features and, of several degrees, the fewest vertices; or the
+/// nearest to that.
 fn near(
     part: &ReferenceCurve,
     degree: Option<usize>,
@@ -186,30 +192,51 @@ fn near(
 ) -> Result<Approximated, OperationError> {
     let own = match part.form() {
         ReferenceForm::Nurbs(nurbs) => nurbs.degree(),
-        _ => LEAST,
+        _ => 1,
     };
+    let mut degrees = match degree {
+        Some(degree) => vec![degree],
+        None => LEAST.map(|least| own.clamp(least, MAX_DEGREE)).to_vec(),
+    };
+    degrees.dedup();
     let goal = Goal {
         tolerance,
         spacing: None,
         most_segments: MOST_SEGMENTS,
     };
-    let asked = ApproximationRequest {
-        degree: degree.unwrap_or(own.clamp(LEAST, MAX_DEGREE)),
-        placing: Placing::Quasi,
-        // Beyond the continuous derivatives levels jump at knots.
-        levels: part.continuity().saturating_sub(1).min(LEVELS),
-        periodic: false,
-        fit_ends: true,
-    };
-    let interval = part.interval();
-    Ok(approximate_to_tolerance(
-        part, interval, &goal, &asked, progress,
-    )?)
+    let mut best: Option<Approximated> = None;
+    let mut refused = OperationError::Cancelled;
+    for (index, degree) in degrees.iter().enumerate() {
+        let asked = ApproximationRequest {
+            degree: *degree,
+            placing: Placing::Quasi,
+            // Beyond the continuous derivatives levels jump at knots.
+            levels: part.continuity().saturating_sub(1).min(LEVELS),
+            periodic: false,
+            fit_ends: true,
+        };
+        let own = progress.hurried(1.0 / (degrees.len() - index) as f64);
+        match approximate_to_tolerance(part, part.interval(), &goal, &asked, &own) {
+            Ok(found) => {
+                let rank = |it: &Approximated| {
+                    let is_within = it.distance() <= tolerance;
+                    (!is_within, !it.is_equivalent(), it.polygon.vertices().len())
+                };
+                if best.as_ref().is_none_or(|best| rank(&found) < rank(best)) {
+                    best = Some(found);
+                }
+            }
+            Err(error) => refused = error.into(),
+        }
+    }
+    best.ok_or(refused)
 }
 
-/// The parts of a reference between its corners.
-fn parts(curve: &ReferenceCurve) -> Result<Vec<ReferenceCurve>, ReferenceError> {
-    let [from, to] = curve.interval();
+/// The parts of a reference between its corners, which only splines have.
+fn parts(curve: &ReferenceCurve) -> Result<Vec<ReferenceCurve>, OperationError> {
+    let ReferenceForm::Nurbs(nurbs) = curve.form() else {
+        return Ok(vec![curve.clone()]);
+    };
     let corners = (1..curve.pieces()).filter(|piece| {
         let [before, after] = [(piece - 1, 1.0), (*piece, 0.0)].map(|(piece, t)| {
             let mut values = [glam::DVec3::ZERO; 2];
@@ -219,10 +246,44 @@ fn parts(curve: &ReferenceCurve) -> Result<Vec<ReferenceCurve>, ReferenceError> 
         // Where the curve stops there is no direction to compare.
         before.angle_between(after) > CORNER
     });
-    let inner = corners.map(|piece| curve.parameter(piece as f64));
-    let places: Vec<f64> = [from].into_iter().chain(inner).chain([to]).collect();
-    let parts = places.windows(2).map(|part| curve.over([part[0], part[1]]));
-    parts.collect()
+    let mut parts = Vec::new();
+    let mut rest = nurbs.clone();
+    for piece in corners {
+        if let Some([before, after]) = divided(&rest, curve.parameter(piece as f64)) {
+            parts.push(before);
+            rest = after;
+        }
+    }
+    parts.push(rest);
+    let [from, to] = curve.interval();
+    let placed = parts.into_iter().map(|part| {
+        let [start, end] = part.interval();
+        let form = ReferenceForm::Nurbs(part);
+        ReferenceCurve::new(form, [from.max(start), to.min(end)], *curve.placement())
+    });
+    Ok(placed.collect::<Result<_, _>>()?)
+}
+
+/// The parts of a spline before and after an inner knot at which it is not smooth, exactly; `None` at any other place.
+/// No part knows of the other: what is beyond its end is its own polynomial.
+fn divided(nurbs: &Nurbs, at: f64) -> Option<[Nurbs; 2]> {
+    let (degree, knots, points) = (nurbs.degree(), nurbs.knots(), nurbs.points());
+    let first = knots.iter().position(|knot| *knot == at)?;
+    let times = knots.iter().filter(|knot| **knot == at).count();
+    let next = (first + times).checked_sub(degree + 1)?;
+    let part = |knots: Vec<f64>, range: std::ops::Range<usize>| {
+        let weights = match nurbs.weights() {
+            Some(weights) => Some(weights.get(range.clone())?.to_vec()),
+            None => None,
+        };
+        Nurbs::new(degree, knots, points.get(range)?.to_vec(), weights, false).ok()
+    };
+    let ends = vec![at; degree + 1];
+    let before = [knots.get(..first)?, &ends].concat();
+    let after = [&ends, knots.get(first + times..)?].concat();
+    let is_corner = times >= degree;
+    let parts = [part(before, 0..first)?, part(after, next..points.len())?];
+    is_corner.then_some(parts)
 }
 
 /// The diagonal of the box around a reference, as samples show.

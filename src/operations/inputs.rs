@@ -15,6 +15,8 @@ pub enum Inputs {
     UpToTwo,
     /// A table of points.
     Points,
+    /// References: one that is chosen, or those of the document.
+    References,
 }
 
 impl Inputs {
@@ -27,6 +29,9 @@ impl Inputs {
             Self::Two => "choose two different curves",
             Self::UpToTwo => "choose no more than two different curves",
             Self::Points => "a table of points is needed",
+            Self::References => {
+                "there is no smooth reference, such as a spline of a drawing or a formula"
+            }
         }
     }
 }

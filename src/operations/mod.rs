@@ -89,6 +89,7 @@ table! {
     harmonise,
     mineur_farin,
     approximate,
+    to_float,
     fit,
     between,
 }

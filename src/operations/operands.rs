@@ -18,6 +18,7 @@ pub struct Operands {
     points: Vec<DVec3>,
     weights: Option<Vec<f64>>,
     reference: Option<ReferenceCurve>,
+    chosen_reference: Option<CurveId>,
     /// The group of the curve or the reference that comes first.
     group: Group,
 }
@@ -45,6 +46,7 @@ impl Operands {
             points: Vec::new(),
             weights: None,
             reference: None,
+            chosen_reference: None,
         })
     }
 
@@ -65,7 +67,7 @@ impl Operands {
         let reference = active.and_then(|id| document.reference(id));
         let mut curves: Vec<CurveId> = curve.map(|(id, _)| id).into_iter().collect();
         match inputs {
-            Inputs::None | Inputs::Points => curves.clear(),
+            Inputs::None | Inputs::Points | Inputs::References => curves.clear(),
             Inputs::One | Inputs::OneOrNone => {}
             Inputs::Two | Inputs::UpToTwo => curves.extend(others),
         }
@@ -85,6 +87,7 @@ impl Operands {
         Ok(Self {
             group: group.cloned().unwrap_or_default(),
             weights: reference.and_then(|it| it.weights()).map(<[f64]>::to_vec),
+            chosen_reference: active.filter(|_| reference.is_some()),
             ..operands.with_points(points.unwrap_or_default())
         })
     }
@@ -102,6 +105,11 @@ impl Operands {
     /// The reference that is offered.
     pub fn reference(&self) -> Option<&ReferenceCurve> {
         self.reference.as_ref()
+    }
+
+    /// The reference that was chosen, for operations on references.
+    pub fn chosen_reference(&self) -> Option<CurveId> {
+        self.chosen_reference
     }
 
     /// The document as it is before the operation.
@@ -139,7 +147,9 @@ impl Operands {
     pub(super) fn is(&self, inputs: Inputs) -> bool {
         let (curves, points) = (&self.curves[..], self.points.len());
         match (inputs, curves) {
-            (Inputs::None | Inputs::OneOrNone | Inputs::UpToTwo, []) => points == 0,
+            (Inputs::None | Inputs::OneOrNone | Inputs::UpToTwo | Inputs::References, []) => {
+                points == 0
+            }
             (Inputs::One | Inputs::OneOrNone | Inputs::UpToTwo, [_]) => points == 0,
             (Inputs::Two | Inputs::UpToTwo, [(first, _), (second, _)]) => {
                 first != second && points == 0

@@ -132,7 +132,12 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
             let (rotate, scale) = (tool(ToolKind::Rotate), tool(ToolKind::Scale));
             if subject == MenuSubject::Curve {
                 let mut changing = operations::ALL.to_vec();
-                changing.retain(|it| !matches!(it.inputs, Inputs::None | Inputs::Points));
+                changing.retain(|it| {
+                    !matches!(
+                        it.inputs,
+                        Inputs::None | Inputs::Points | Inputs::References
+                    )
+                });
                 let changing = changing.into_iter().map(operation).collect();
                 let operations = Entry::Submenu("Operations", changing);
                 let periodic = command(Command::TogglePeriodic);
@@ -146,7 +151,11 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
                     true => &operations::fit::OPERATION,
                     false => &operations::approximate::OPERATION,
                 });
-                entries.extend([fit, rotate, scale, Divider]);
+                entries.push(fit);
+                if !is_list {
+                    entries.push(operation(&operations::to_float::OPERATION));
+                }
+                entries.extend([rotate, scale, Divider]);
             }
             entries.extend([
                 command(Command::Fit),

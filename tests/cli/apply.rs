@@ -87,6 +87,10 @@ fn every_operation_is_listed_has_help_and_reports_by_one_schema() {
         .filter_map(|line| line.split(' ').next())
         .collect();
     assert!(names.contains(&"reverse") && names.contains(&"correct-ends"));
+    let round =
+        json!({"name": "round", "kind": "circle", "values": {"radius": 2}, "interval": [0, 3]});
+    let round = json!({"format": "batten", "version": 2, "curves": [], "references": [round]});
+    std::fs::write(folder.path("round.batten"), round.to_string()).expect("a file");
     for name in names {
         let (help, _) = folder.done(&["apply", name, "--help"]);
         for word in ["<OUT>", "--to-format"] {
@@ -106,6 +110,7 @@ fn every_operation_is_listed_has_help_and_reports_by_one_schema() {
             "mineur-farin" | "between" => &[name, "out.batten"][..],
             // A copy goes on from its curve where it may move.
             "join" => &[name, &file, &file, "out.batten", "--move-second"],
+            "to-float" => &[name, "round.batten", "out.batten"],
             _ => &[name, &file, "out.batten"],
         };
         let report = report(&folder, read);

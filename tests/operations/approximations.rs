@@ -3,10 +3,11 @@
 use std::sync::mpsc;
 use std::thread;
 
-use batten::document::{Curve, Document};
-use batten::geometry::references::ReferenceCurve;
-use batten::geometry::{FloatPolygon, Progress};
+use batten::document::{Curve, Document, Group, Reference};
+use batten::geometry::references::{Nurbs, ReferenceCurve, ReferenceForm};
+use batten::geometry::{FloatPolygon, ParametricCurve, Progress};
 use batten::operations::{Deviation, Operands, OperationError, Outcome, Report, Value, find};
+use glam::DVec3;
 use serde_json::json;
 
 use super::runner::Runner;
@@ -505,4 +506,111 @@ fn without_a_number_there_are_as_many_vertices_as_let_corrections_fade() {
     let (input, outcome) = run(&typed).expect("it can run");
     assert_eq!(curve(&input, &outcome).polygon.vertices().len(), 20);
     assert!(grow(&outcome), "{:?}", outcome.remarks);
+}
+
+/// A cubic on uneven knots, which no float polygon holds; with a corner at its middle knot if it is triple.
+fn spline(middle: usize) -> ReferenceCurve {
+    let inner = [vec![1.0], vec![3.0; middle], vec![4.5]].concat();
+    let knots = [vec![0.0; 4], inner, vec![5.0; 4]].concat();
+    let count = knots.len() - 4;
+    let corner = |index: usize| DVec3::new(10.0 * index as f64, 8.0 * (index % 2) as f64, 0.0);
+    let nurbs = Nurbs::new(3, knots, (0..count).map(corner).collect(), None, false);
+    let form = ReferenceForm::Nurbs(nurbs.expect("a spline"));
+    ReferenceCurve::of(form).expect("a reference")
+}
+
+/// Convert references of a document, with the first one chosen.
+fn converted(document: &Document, given: &[(&str, Value)]) -> (Outcome, Document) {
+    let operation = find("to-float").expect("it is there");
+    let chosen = document.references().next().map(|(id, _)| id);
+    let input = Operands::choose(document, operation.inputs, chosen, &[]).expect("references");
+    let values = operation.values(&input, given.iter().cloned());
+    let outcome = operation.run(&input, &values.expect("values"), &Progress::default());
+    let outcome = outcome.expect("curves");
+    let after = outcome.applied_to(document).expect("edits");
+    (outcome, after)
+}
+
+fn drawing() -> Document {
+    let circle = ReferenceCurve::from_text("circle:radius=30").expect("a circle");
+    let in_deck = |name: &str, curve: ReferenceCurve| {
+        Reference::new(name, curve).in_group(Group::new(["Deck"]))
+    };
+    Document::default().with_references([
+        in_deck("sheer", spline(1)),
+        in_deck("port", circle),
+        Reference::new("chine", spline(3)),
+    ])
+}
+
+#[test]
+fn references_become_float_polygons_of_one_group_or_of_all() {
+    let document = drawing();
+    for (which, curves, references) in [(0, 1, 2), (1, 2, 1), (2, 4, 0)] {
+        let given = [
+            ("references", Value::Choice(which)),
+            ("tolerance", Value::List(vec![1e-3])),
+        ];
+        let (outcome, after) = converted(&document, &given);
+        assert!(outcome.reached, "{:?}", outcome.remarks);
+        let counts = (after.curves().count(), after.references().count());
+        assert_eq!(counts, (curves, references), "{:?}", outcome.remarks);
+        assert_eq!(
+            outcome.remarks.len(),
+            3 - references,
+            "{:?}",
+            outcome.remarks
+        );
+        for (_, reference) in document.references() {
+            let is_kept = after.references().any(|(_, it)| it.name == reference.name);
+            let near = after.curves().filter(|(_, curve)| {
+                curve.name == reference.name || curve.group.names().contains(&reference.name)
+            });
+            let near: Vec<_> = near.map(|(_, curve)| curve.clone()).collect();
+            assert_eq!(near.is_empty(), is_kept, "{}", reference.name);
+            for step in (0..=400).filter(|_| !is_kept) {
+                let u = reference.curve.pieces() as f64 * step as f64 / 400.0;
+                let point = reference.curve.jet(u).point;
+                let off = near
+                    .iter()
+                    .map(|curve| curve.polygon.nearest(point).distance);
+                let off = off.fold(f64::INFINITY, f64::min);
+                assert!(off <= 1e-3, "{} at {u}: {off}", reference.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn features_are_kept_and_corners_divide_a_reference() {
+    let (outcome, after) = converted(&drawing(), &[("references", Value::Choice(2))]);
+    assert!(outcome.reached, "{:?}", outcome.remarks);
+    let [sheer, port, chine] = [0, 1, 2].map(|index| outcome.remarks[index].as_str());
+    assert!(
+        sheer.starts_with("“sheer”: ") && sheer.ends_with("; features kept"),
+        "{sheer}"
+    );
+    assert!(port.ends_with("; features kept"), "{port}");
+    assert!(
+        chine.starts_with("“chine”: 2 curves between corners, "),
+        "{chine}"
+    );
+    let parts = after
+        .curves()
+        .filter(|(_, curve)| curve.name.starts_with("chine"));
+    let parts: Vec<_> = parts.map(|(_, curve)| curve.clone()).collect();
+    let ends = [parts[0].polygon.segments() as f64, 0.0];
+    let [one, other] = [0, 1].map(|index: usize| parts[index].polygon.point(ends[index]));
+    assert!(
+        one.distance(other) < 1e-9,
+        "the corner stays: {one} and {other}"
+    );
+}
+
+#[test]
+fn references_can_stay_beside_their_curves() {
+    let given = [("keep", Value::Switch(true))];
+    let (outcome, after) = converted(&drawing(), &given);
+    assert!(outcome.reached);
+    assert_eq!((after.curves().count(), after.references().count()), (1, 3));
 }

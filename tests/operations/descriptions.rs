@@ -245,6 +245,10 @@ fn an_operation_runs_on_nothing_but_the_inputs_it_wants() {
             Inputs::Two => (&none, "choose two different curves"),
             Inputs::OneOrNone => (&twice, "choose a curve, or give a reference"),
             Inputs::Points => (&none, "a table of points is needed"),
+            Inputs::References => (
+                &none,
+                "there is no smooth reference, such as a spline of a drawing or a formula",
+            ),
             _ => (&none, "choose one curve"),
         };
         for input in [wrong, &twice, &points] {

@@ -1,7 +1,8 @@
 //! Running operations on the built-in examples.
 
-use batten::document::{Curve, CurveId, Document, Edit, LockedVertices};
+use batten::document::{Curve, CurveId, Document, Edit, LockedVertices, Reference};
 use batten::geometry::end_correction::EndTarget;
+use batten::geometry::references::ReferenceCurve;
 use batten::geometry::{End, FloatPolygon, Progress};
 use batten::io::examples::{EXAMPLES, Example};
 use batten::operations::{
@@ -69,6 +70,14 @@ impl Runner {
             Inputs::Points => {
                 let none = Operands::new(self.input.document(), []).expect("none is there");
                 none.with_points(self.polygon().vertices().to_vec())
+            }
+            Inputs::References => {
+                let curve = ReferenceCurve::from_text("clothoid:a=3").expect("a reference");
+                let document = self.input.document().clone();
+                let document = document.with_references([Reference::new("clothoid", curve)]);
+                let id = document.references().next().map(|(id, _)| id);
+                let input = Operands::choose(&document, operation.inputs, id, &[]);
+                input.expect("a reference")
             }
             _ => self.input.clone(),
         }

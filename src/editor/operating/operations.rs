@@ -560,7 +560,10 @@ impl Operating<'_> {
         let Some(first) = made.first() else {
             return;
         };
-        let follows = matches!(current.operation.inputs, Inputs::OneOrNone | Inputs::Points);
+        let follows = matches!(
+            current.operation.inputs,
+            Inputs::OneOrNone | Inputs::Points | Inputs::References
+        );
         let (followed, was_active) = (current.curve(), current.selection.active());
         let is_first = match &mut self.operations.operation {
             Some(current) => !std::mem::replace(&mut current.has_made, true),
