@@ -16,7 +16,7 @@ mod workspace;
 
 use std::time::Duration;
 
-pub use commands::{Command, ReferenceChange, Shortcut};
+pub use commands::{Command, CopyForm, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{
     Button, Cursor, DrawSettings, DrawWay, EndFitAction, EndFitReport, EndNoise, Entry, EntryError,

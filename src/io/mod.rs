@@ -48,6 +48,7 @@ pub use dxf::DXF;
 pub use error::{
     FileError, FileProblem, FormatError, Place, Problem, ReadError, WriteError, shown_path,
 };
+pub use exchange::formats::svg_path;
 pub use export::{ExportChoice, PRESETS, Preset, Scope};
 pub use file_match::{FileMatch, MatchSource};
 pub use fingerprint::Fingerprint;

@@ -1,7 +1,7 @@
 //! The table of actions: the editor's commands, and those of the window alone. Menus, keys,
 //! buttons and the command palette all read it.
 
-use crate::editor::{Command, Editor, Key, Modifiers, Shortcut};
+use crate::editor::{Command, CopyForm, Editor, Key, Modifiers, Shortcut};
 use crate::geometry::rounded_up;
 use crate::io::examples::EXAMPLES;
 use crate::io::{Exporter, formats};
@@ -39,6 +39,8 @@ pub enum Action {
     Cut,
     /// Copy the selected curve or vertices.
     Copy,
+    /// Copy the selected curves in a form for other programs.
+    CopyAs(CopyForm),
     /// Add the copied curve or vertices.
     Paste,
     /// Type another name for the active curve in its row of the list.
@@ -88,7 +90,9 @@ impl Action {
         all.push(Self::ExportLast);
         all.extend(formats::exporters().into_iter().map(Self::Export));
         all.extend((0..EXAMPLES.len()).map(Self::OpenExample));
-        all.extend([Self::Quit, Self::Cut, Self::Copy, Self::Paste, Self::Rename]);
+        all.extend([Self::Quit, Self::Cut, Self::Copy]);
+        all.extend(CopyForm::OTHERS.map(Self::CopyAs));
+        all.extend([Self::Paste, Self::Rename]);
         all.extend(Command::all().into_iter().map(Self::Command));
         all.extend([
             Self::ToggleTheme,
@@ -123,6 +127,8 @@ impl Action {
             Self::Quit => "Quit",
             Self::Cut => "Cut",
             Self::Copy => "Copy",
+            Self::CopyAs(CopyForm::SvgPath) => "Copy as SVG path",
+            Self::CopyAs(CopyForm::Own | CopyForm::Table) => "Copy as table",
             Self::Paste => "Paste",
             Self::Rename => "Rename curve",
             Self::ToggleTheme => "Light theme",
@@ -183,6 +189,12 @@ impl Action {
             Self::Quit => "Quit Batten",
             Self::Cut => "Copy the selected vertices and delete them",
             Self::Copy => "Copy the active curve, or only its selected vertices",
+            Self::CopyAs(CopyForm::SvgPath) => {
+                "Copy the selected curves as the data of an SVG path"
+            }
+            Self::CopyAs(CopyForm::Own | CopyForm::Table) => {
+                "Copy float vertices as a table for spreadsheets"
+            }
             Self::Paste => "Add copied curves, vertices, SVG paths or DXF text as new curves",
             Self::Rename => "Rename in the list of curves; a double-click on a row does the same",
             Self::ToggleTheme => "Switch between the dark and the light theme",
@@ -229,6 +241,7 @@ impl Action {
             Self::OpenExample(_)
             | Self::Reload
             | Self::ChooseImport
+            | Self::CopyAs(_)
             | Self::NormaliseLength
             | Self::ToggleToolNames
             | Self::NudgeStep
@@ -262,7 +275,7 @@ impl Action {
             Self::Export(_) | Self::ExportLast => !editor.document().is_empty(),
             Self::Reload => editor.workspace().path().is_some(),
             Self::ChooseImport => editor.filing().has_imported(),
-            Self::Cut | Self::Copy | Self::Rename => editor.active().is_some(),
+            Self::Cut | Self::Copy | Self::CopyAs(_) | Self::Rename => editor.active().is_some(),
             _ => true,
         }
     }

@@ -32,7 +32,7 @@ use super::theme::{self, Tokens};
 use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{
-    Command, CurvatureDisplay, DrawSettings, DrawWay, Editor, FileAnswer, Layer, MenuOf,
+    Command, CopyForm, CurvatureDisplay, DrawSettings, DrawWay, Editor, FileAnswer, Layer, MenuOf,
     MenuSubject, Refusal, Reply, ToolKind, is_project, told,
 };
 
@@ -437,7 +437,8 @@ impl App {
                 self.export.open(choice);
             }
             Action::Cut => copy(context, self.editor.cut()),
-            Action::Copy => copy(context, self.editor.copy()),
+            Action::Copy => copy(context, self.editor.copy(CopyForm::Own)),
+            Action::CopyAs(form) => copy(context, self.editor.copy(form)),
             Action::Rename => self.side.rename_active(context, &self.editor),
             Action::Paste => context.send_viewport_cmd(ViewportCommand::RequestPaste),
             Action::ToggleTheme => {

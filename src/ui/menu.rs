@@ -9,7 +9,9 @@ use super::menu_item::{WIDTH, blank, item_ui};
 use super::plots::others;
 use super::shell::Shell;
 use super::widgets;
-use crate::editor::{Command, CurvatureDisplay, Editor, Follow, Layer, NamedView, ToolKind};
+use crate::editor::{
+    Command, CopyForm, CurvatureDisplay, Editor, Follow, Layer, NamedView, ToolKind,
+};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::KINDS;
 use crate::io::examples::EXAMPLES;
@@ -197,6 +199,8 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         Item(Action::Cut),
         Item(Action::Copy),
+        Item(Action::CopyAs(CopyForm::SvgPath)),
+        Item(Action::CopyAs(CopyForm::Table)),
         Item(Action::Paste),
         command(Command::Delete),
         Divider,

@@ -1,6 +1,8 @@
 //! Commands, files and the clipboard.
 
-use batten::editor::{Command, Input, Key, ToolKind};
+use batten::document::Document;
+use batten::editor::{Command, CopyForm, Editor, Input, Key, ToolKind};
+use batten::geometry::ParametricCurve;
 use glam::DVec2;
 
 use super::script::Script;
@@ -8,7 +10,10 @@ use super::script::Script;
 #[test]
 fn copy_and_paste_add_a_curve_aside_as_one_step() {
     let mut script = Script::example("arc");
-    let text = script.editor.copy().expect("the arc's text");
+    let text = script
+        .editor
+        .copy(batten::editor::CopyForm::Own)
+        .expect("the arc's text");
     let pasted = script.editor.paste_text(&text).expect("a copy");
     assert!(pasted.offers_undo, "{pasted:?}");
     assert_eq!(script.editor.document().len(), 2);
@@ -138,4 +143,42 @@ fn a_command_after_a_held_key_is_a_step_of_its_own() {
     script.input(Input::KeyRepeated(Key::Function(6)));
     script.operate("extend", &[]).expect("a longer curve");
     assert_eq!(script.steps(), 2);
+}
+
+#[test]
+fn copies_for_other_programs_come_back_as_the_same_curve() {
+    let mut script = Script::example("arc");
+    let own = script.editor.document().clone();
+    let (_, arc) = own.curves().next().expect("the arc");
+    let table = script.editor.copy(CopyForm::Table).expect("a table");
+    assert!(table.contains('\t'), "columns for spreadsheets");
+    let path = script.editor.copy(CopyForm::SvgPath).expect("a path");
+    assert!(path.starts_with('M') && path.contains('C'), "{path}");
+    let message = script.message();
+    assert!(
+        message.starts_with("“arc” copied as an SVG path\n“arc”: written as "),
+        "{message}"
+    );
+    let mut other = Editor::with_document(Document::default());
+    other.paste_text(&path).expect("the path");
+    let document = other.document();
+    let curve = document.curves().next().map(|(_, it)| it.polygon.clone());
+    let reference = document.references().next().map(|(_, it)| it.curve.clone());
+    let pasted: &dyn ParametricCurve = match (&curve, &reference) {
+        (Some(curve), _) => curve,
+        (None, reference) => reference.as_ref().expect("a reference"),
+    };
+    let size = arc.polygon.size();
+    for piece in 0..=32 {
+        let u = pasted.pieces() as f64 * f64::from(piece) / 32.0;
+        let off = arc.polygon.nearest(pasted.jet(u).point).distance;
+        assert!(off <= 1e-4 * size, "{piece}: {off}");
+    }
+    let mut other = Editor::with_document(Document::default());
+    other.paste_text(&table).expect("the table");
+    let (_, copy) = other.document().curves().next().expect("a curve");
+    let moved = copy.polygon.vertex(0) - arc.polygon.vertex(0);
+    for (index, vertex) in arc.polygon.vertices().iter().enumerate() {
+        assert!((copy.polygon.vertex(index) - *vertex).distance(moved) <= 1e-12 * size);
+    }
 }

@@ -124,7 +124,10 @@ fn a_reload_keeps_unknown_keys_that_another_program_changed() {
 fn unknown_keys_do_not_go_with_copies() {
     let folder = folder();
     let mut script = opened(&write(&folder, "own.batten", PROJECT));
-    let copied = script.editor.copy().expect("a text");
+    let copied = script
+        .editor
+        .copy(batten::editor::CopyForm::Own)
+        .expect("a text");
     assert!(!copied.contains("weigths"), "{copied}");
     script.editor.paste_text(&copied).expect("a curve");
     script.editor.paste_text(PROJECT).expect("a curve");
@@ -351,7 +354,7 @@ fn the_clipboard_keeps_the_size_of_curves() {
     let mut copied = Editor::with_document(in_unit(INCH));
     let curve = copied.document().ids().next().expect("a curve");
     copied.activate(curve);
-    let text = copied.copy().expect("a text");
+    let text = copied.copy(batten::editor::CopyForm::Own).expect("a text");
     let mut editor = Editor::with_document(in_unit(MM));
     editor.paste_text(&text).expect("a curve");
     let (pasted, unit) = widths(&editor);

@@ -55,7 +55,10 @@ fn copies_and_parts_stay_in_the_group() {
     group(&mut script, curve, "Deck");
     script.command(Command::Duplicate);
     assert_eq!(groups(&script), ["Deck"; 2]);
-    let text = script.editor.copy().expect("the text of a curve");
+    let text = script
+        .editor
+        .copy(batten::editor::CopyForm::Own)
+        .expect("the text of a curve");
     script.editor.paste_text(&text).expect("a copy");
     assert_eq!(groups(&script), ["Deck"; 3]);
     let at = [("at", Value::Real(1.0))];

@@ -251,13 +251,19 @@ fn copies_are_free() {
     let mut script = locked(&[2]);
     script.command(Command::Duplicate);
     assert!(locks(&script).is_empty());
-    let text = script.editor.copy().expect("a curve");
+    let text = script
+        .editor
+        .copy(batten::editor::CopyForm::Own)
+        .expect("a curve");
     told(script.editor.paste_text(&text));
     assert!(locks(&script).is_empty());
     let first = script.editor.document().ids().next().expect("the first");
     assert_eq!(locks_of(&script, first), [2]);
     script.editor.activate(first);
-    let text = script.editor.copy().expect("a curve");
+    let text = script
+        .editor
+        .copy(batten::editor::CopyForm::Own)
+        .expect("a curve");
     told(script.editor.paste_text(&text));
     assert!(locks(&script).is_empty());
 }

@@ -548,7 +548,10 @@ fn it_is_nudged_by_the_arrow_keys() {
 #[test]
 fn it_is_copied_cut_pasted_duplicated_and_deleted() {
     let (mut script, id) = with("circle");
-    let text = script.editor.copy().expect("a copy");
+    let text = script
+        .editor
+        .copy(batten::editor::CopyForm::Own)
+        .expect("a copy");
     script.editor.paste_text(&text).expect("a reference");
     script.check();
     let copy = script.curve();

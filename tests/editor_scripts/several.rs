@@ -197,7 +197,12 @@ fn what_is_hidden_is_not_edited() {
 #[test]
 fn a_single_vertex_is_copied_as_its_coordinates() {
     let (mut script, [arc, other]) = two();
-    let copied = |script: &mut Script| script.editor.copy().expect("a text");
+    let copied = |script: &mut Script| {
+        script
+            .editor
+            .copy(batten::editor::CopyForm::Own)
+            .expect("a text")
+    };
     script.click(script.at_vertex_of(other, 3));
     let DVec3 { x, y, .. } = polygon_of(&script, other).vertex(3);
     assert_eq!(copied(&mut script), format!("{x},{y}\n"));
@@ -284,7 +289,10 @@ fn drawings_of_other_programs_are_pasted() {
 fn pasting_in_the_middle_of_a_drag_calls_the_drag_off() {
     let mut script = Script::example("arc");
     let before = script.polygon();
-    let text = script.editor.copy().expect("the arc's text");
+    let text = script
+        .editor
+        .copy(batten::editor::CopyForm::Own)
+        .expect("the arc's text");
     let (arc, at) = (script.curve(), script.at_vertex(3));
     script.press(at);
     script.move_to(at + 40.0);

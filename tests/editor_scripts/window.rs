@@ -453,9 +453,9 @@ impl Window {
             }
             Panel::Paste(text) => told(self.editor.paste_text(TEXTS[text % TEXTS.len()])),
             Panel::Cut => told(self.editor.cut()),
-            Panel::Copy => told(self.editor.copy()),
+            Panel::Copy => told(self.editor.copy(batten::editor::CopyForm::Own)),
             Panel::CopyAndPaste => {
-                if let Ok(text) = self.editor.copy() {
+                if let Ok(text) = self.editor.copy(batten::editor::CopyForm::Own) {
                     told(self.editor.paste_text(&text));
                 }
             }

@@ -10,12 +10,15 @@ use crate::document::{
 use crate::editor::Editor;
 use crate::editor::jobs::file_reading::Purpose;
 use crate::editor::jobs::filing::{Incoming, ReadDocument};
-use crate::editor::reply::{Note, Refusal, Reply};
+use crate::editor::reply::{Note, Refusal, Reply, with_lines};
 use crate::editor::selection::Selection;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
-use crate::io::{Export, PROJECT, ReadError, Reading, TABLE, WriteError, formats};
+use crate::io::{
+    Export, ExportChoice, PROJECT, ReadError, Reading, Scope, TAB_TABLE, TABLE, WriteError,
+    formats, svg_path,
+};
 
 /// The distance of copies from their originals, in screen points, right and down.
 const OFFSET: f64 = 24.0;
@@ -47,18 +50,22 @@ impl Editor {
         self.tell(reply)
     }
 
-    /// Make the text of what is selected, or of the active curve if nothing is: whole curves as a
-    /// project, which keeps all of them, otherwise tables of the selected vertices. The message
-    /// shows the result.
+    /// Make the text of what is selected, or of the active curve or reference if nothing is. The message shows the
+    /// result, with what a form for other programs cannot hold.
     ///
     /// # Errors
-    /// [`Refusal`] if there is nothing to copy.
-    pub fn copy(&mut self) -> Result<String, Refusal> {
-        let copied = text_of(&self.hand.selection, self.document());
-        let reply = copied.clone();
-        let reply = reply.map(|_| copied_note(&self.hand.selection, self.document()));
+    /// [`Refusal`] if there is nothing to copy, or the form cannot hold it.
+    pub fn copy(&mut self, form: CopyForm) -> Result<String, Refusal> {
+        let (selection, document) = (&self.hand.selection, self.document());
+        let copied = match form {
+            CopyForm::Own => {
+                text_of(selection, document).map(|text| (text, copied_note(selection, document)))
+            }
+            _ => form.of(selection, document),
+        };
+        let reply = copied.clone().map(|(_, note)| note);
         self.tell(reply)?;
-        copied
+        copied.map(|(text, _)| text)
     }
 
     /// Copy the selected vertices and remove just them, or the active reference, as one step. The message shows
@@ -129,6 +136,53 @@ impl Editor {
             })));
         }
         self.add(label, edits)
+    }
+}
+
+/// The form of a copy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CopyForm {
+    /// Whole curves as a project, which keeps all of them, otherwise tables of the selected vertices.
+    Own,
+    /// The data of an SVG path: cubic Béziers in the plane, with y going down.
+    SvgPath,
+    /// The vertices of float polygons and the points of lists, in columns between tabs.
+    Table,
+}
+
+impl CopyForm {
+    /// The forms for other programs, in the order in which they are offered.
+    pub const OTHERS: [Self; 2] = [Self::SvgPath, Self::Table];
+
+    /// The text of what is selected, and a note on it.
+    fn of(self, selection: &Selection, document: &Document) -> Result<(String, Note), Refusal> {
+        let items = selection.items();
+        let scope = ExportChoice {
+            scope: Scope::Selected,
+            ..ExportChoice::new(&TAB_TABLE)
+        };
+        let chosen = scope.chosen(document, &items);
+        let chosen = chosen.map_err(|_| Refusal::from("There is no curve"))?;
+        let refused = |error: WriteError| Refusal(error.to_string());
+        let (text, losses, form) = match self {
+            Self::SvgPath => {
+                let (text, losses) = svg_path(&chosen).map_err(refused)?;
+                (text, losses.to_string(), "an SVG path")
+            }
+            Self::Own | Self::Table => {
+                let export = scope.write(&chosen).map_err(refused)?;
+                let text = String::from_utf8_lossy(&export.bytes).into_owned();
+                (text, export.losses.to_string(), "a table")
+            }
+        };
+        let names = match &items[..] {
+            [only] => quoted(document.name(*only).unwrap_or_default()),
+            items => counted(items.len(), "item", "items"),
+        };
+        Ok((
+            text,
+            Note::told(with_lines(format!("{names} copied as {form}"), &losses)),
+        ))
     }
 }
 

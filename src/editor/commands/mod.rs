@@ -14,5 +14,6 @@ mod recovering;
 mod references;
 mod state;
 
+pub use clipboard::CopyForm;
 pub use command::{Command, Shortcut};
 pub use references::ReferenceChange;

@@ -7,7 +7,7 @@ use crate::document::Document;
 use crate::geometry::PolygonKind;
 use crate::io::error::WriteError;
 use crate::io::format::{ExportRow, Format, Writing};
-use crate::io::loss::LossReport;
+use crate::io::loss::{Loss, LossReport};
 
 /// Writes a drawing of some name.
 type WriteDrawing = fn(&Drawing, &str) -> Result<Vec<u8>, Unreadable>;
@@ -177,6 +177,26 @@ pub static CURVE_JSON: Format = Format {
     }),
     ..NONE
 };
+
+/// Write curves and references as the data of one SVG path, with the losses: numbers are those of the document, y goes
+/// down.
+///
+/// # Errors
+/// [`WriteError`] if there is nothing to write, or a curve is not in the plane.
+pub fn svg_path(document: &Document) -> Result<(String, LossReport), WriteError> {
+    let mut losses = LossReport::new(SVG.name);
+    let drawing = Drawing::of(document, Written::Cubics(None), none, &mut losses)?;
+    let data = svg::path_data(&drawing);
+    let data = data.map_err(|Unreadable { reason, .. }| WriteError::Refused {
+        format: SVG.name,
+        reason,
+    })?;
+    // A path has no attributes that could be lost.
+    losses
+        .losses
+        .retain(|(_, loss)| matches!(loss, Loss::Cubics { .. } | Loss::Reference));
+    Ok((data, losses))
+}
 
 /// The path that formats keep whose layers have one name, with `/` between the names of groups.
 fn joined(path: &[String]) -> Vec<String> {

@@ -36,6 +36,11 @@ pub fn kept_group(path: &[String]) -> Vec<String> {
     writer::shortened(path)
 }
 
+/// The data of one path along everything that is drawn, with numbers as they are; refuse what SVG cannot hold.
+pub fn path_data(drawing: &Drawing) -> Result<String, Unreadable> {
+    writer::data(drawing)
+}
+
 /// Write a drawing to scale, in millimetres; refuse what SVG cannot hold exactly.
 pub fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable> {
     writer::write(drawing, name)

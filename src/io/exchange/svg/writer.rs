@@ -52,6 +52,24 @@ pub(super) fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable
     Ok(text.into_bytes())
 }
 
+/// The data of one path along everything that is drawn, with y going down as in SVG and numbers as they are.
+pub(super) fn data(drawing: &Drawing) -> Result<String, Unreadable> {
+    let mirrored = Affine {
+        linear: DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0)),
+        origin: DVec3::ZERO,
+    };
+    let mut text = String::new();
+    for item in &drawing.items {
+        let shapes = item.shapes.iter().cloned();
+        let shapes: Vec<Shape> = shapes.map(|shape| shape.placed(&mirrored)).collect();
+        check(&shapes).map_err(|what| refusal(drawing, item, &what))?;
+        let page = Page::around(shapes.iter());
+        let data = path_data(&shapes, &page);
+        text += &data.map_err(|what| refusal(drawing, item, &what))?;
+    }
+    Ok(text)
+}
+
 /// The page around all shapes, in millimetres.
 struct Page {
     left: f64,
@@ -250,7 +268,8 @@ fn enter(text: &mut String, from: Option<&[String]>, to: &[String], page: &Page)
     }
 }
 
-fn element(item: &Item, shapes: &[Shape], page: &Page) -> Result<String, String> {
+/// Refuse what SVG cannot hold.
+fn check(shapes: &[Shape]) -> Result<(), String> {
     for point in shapes.iter().flat_map(hull) {
         if !point.is_finite() {
             return Err("a curve with numbers that are not finite".to_owned());
@@ -259,6 +278,11 @@ fn element(item: &Item, shapes: &[Shape], page: &Page) -> Result<String, String>
             return Err("a curve outside of the plane z = 0".to_owned());
         }
     }
+    Ok(())
+}
+
+fn element(item: &Item, shapes: &[Shape], page: &Page) -> Result<String, String> {
+    check(shapes)?;
     let name = item.name.as_ref();
     let name = name.map(|it| format!(" inkscape:label=\"{}\"", escaped(it)));
     let stroke = item
