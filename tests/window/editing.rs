@@ -115,17 +115,16 @@ fn losses_of_the_curves_are_named_even_if_they_are_alone() {
 }
 
 #[test]
-fn a_drawing_has_no_polygons_beside_its_curves() {
+fn polylines_beside_the_curves_of_a_drawing_are_written_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = arc_in(folder.path(), "dxf");
     let exported = disk::read_file(&path).expect("the file");
     assert_eq!(exported.references.len(), 2);
     let mut window = moved(&path, false);
     save(&mut window);
-    window.get_by_label("“arc float polygon”: references aren't stored in the DXF");
     click(&mut window, "Save");
     let saved = disk::read_file(&path).expect("the file");
-    assert_eq!((saved.curves.len(), saved.references.len()), (1, 0));
+    assert_eq!((saved.curves.len(), saved.references.len()), (1, 2));
 }
 
 #[test]
