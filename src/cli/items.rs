@@ -51,13 +51,10 @@ pub(super) fn only(
     name: Option<&str>,
     option: &str,
 ) -> anyhow::Result<CurveId> {
-    let (curves, all) = (
-        items(document, Inputs::One),
-        items(document, Inputs::OneOrNone),
-    );
+    let (curves, all) = (items(document, Inputs::One), all(document));
     let offered = if curves.is_empty() { &all } else { &curves };
     match (name, &offered[..]) {
-        (Some(name), _) => found(&all, Inputs::OneOrNone, name),
+        (Some(name), _) => item(&all, name),
         (None, [(only, _)]) => Ok(*only),
         (None, []) => bail!("there is neither a curve nor a reference"),
         (None, _) => bail!("choose one with {option}: {}", listed(offered)),

@@ -56,10 +56,7 @@ const DEGREE: Parameter = Parameter {
     kind: Kind::List {
         count: 1..=1,
         whole: true,
-        limits: (
-            Bound::Included(1.0),
-            Bound::Included(MAX_DEGREE as f64),
-        ),
+        limits: (Bound::Included(1.0), Bound::Included(MAX_DEGREE as f64)),
         quantity: Quantity::Number,
         words: &[],
         none: |_| "the one with the fewest vertices",
@@ -106,7 +103,9 @@ fn converted(input: &Operands, which: Which) -> Vec<(CurveId, Arc<Reference>)> {
         };
         is_wanted && reference.curve.form().is_smooth()
     });
-    references.map(|(id, reference)| (id, reference.clone())).collect()
+    references
+        .map(|(id, reference)| (id, reference.clone()))
+        .collect()
 }
 
 /// Whether a group is another one or in it.
@@ -168,7 +167,9 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         // No curve stands for these: what is asked for is not reached.
         let none = input.document().next_ids().nth(outcome.requirements.len());
         let missing = Requirement::Failed { left: None };
-        outcome.requirements.extend(none.map(|id| (id, vec![missing])));
+        outcome
+            .requirements
+            .extend(none.map(|id| (id, vec![missing])));
     }
     if search.is_late() {
         outcome.remarks.push(best_so_far(&search, values));
