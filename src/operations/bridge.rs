@@ -72,9 +72,9 @@ pub(super) fn remarks(found: &Bridged) -> Vec<String> {
     halved.into_iter().chain(undecided).collect()
 }
 
-/// How many times as much a bridge may bend as the parts do anywhere, or as the turn between the ends needs over the gap.
-/// Bridges across gaps that their parts fit bend at most twice as much.
-const SHARPEST: f64 = 4.0;
+/// How many times as much a bridge may bend as the parts do anywhere, or as the turns at its ends need over the gap: a
+/// fair bridge needs about twice as much, spikes and cusps have far more.
+const SHARPEST: f64 = 3.0;
 
 /// The samples of a segment at which curvatures are compared.
 const SAMPLES: usize = 32;
@@ -93,11 +93,14 @@ pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String
     };
     let own = parts.map(|part| most(part, [0.0, part.segments() as f64]));
     let [end, start] = joint(found);
-    let tangents = [end, start].map(|u| found.polygon.jet(u).tangent());
-    let turn = match tangents {
-        [Some(end), Some(start)] => end.angle_between(start),
-        _ => PI,
-    };
+    let [from, to] = [end, start].map(|u| found.polygon.jet(u));
+    let way = to.point - from.point;
+    let turns = [from, to].map(|jet| jet.tangent().map_or(PI, |it| it.angle_between(way)));
+    // Over no way there is no angle.
+    let turn = turns
+        .into_iter()
+        .filter(|turn| turn.is_finite())
+        .sum::<f64>();
     let needed = own[0].max(own[1]).max(turn / found.gap);
     let sharpest = most(&found.polygon, [end, start]);
     (sharpest > SHARPEST * needed).then(|| {

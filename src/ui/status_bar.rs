@@ -16,8 +16,9 @@ use crate::geometry::expressions::LengthUnit;
 /// The bar's height in points.
 pub const HEIGHT: f32 = 34.0;
 
-/// The width that is kept for the hint: its longest ones fit in two lines of it.
-const HINT: f32 = 320.0;
+/// The width that is kept for the hint: the longest ones that are usual fit in two lines of it, also in a small window
+/// with the scale.
+const HINT: f32 = 180.0;
 
 /// The lines that the hint takes at most.
 const HINT_ROWS: usize = 2;
@@ -26,7 +27,7 @@ const HINT_ROWS: usize = 2;
 const GAP: f32 = 4.0 * STEP;
 
 /// The cells that give way where there is too little room, the first one first.
-const GIVING_WAY: [&str; 6] = ["degree", "scale", "u", "t", "κ", "R"];
+const GIVING_WAY: [&str; 6] = ["degree", "u", "t", "κ", "R", "scale"];
 
 /// Show the bar; `hint` describes the mouse's next action.
 pub fn status_bar_ui(

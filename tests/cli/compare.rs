@@ -86,6 +86,6 @@ fn points_and_units_are_respected() {
     assert_eq!(found["whiskers"], json!(2));
     folder.refused(
         &["compare", "points.csv", "points.csv"],
-        "both are lists of points",
+        "both are lists of points: fit a curve to one of them",
     );
 }

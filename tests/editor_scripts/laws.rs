@@ -185,7 +185,11 @@ fn check_kept(old: &Bits, new: &Bits, follows: bool) -> Result<(), String> {
             .map_or(Some(Bit::ONE), |all| all.get(index).copied());
         Some((*bits.shape.2.get(index)?, weights?))
     };
-    if old.locked_vertices == new.locked_vertices && old.shape.2.len() == new.shape.2.len() {
+    // A mirror image takes the locks of all vertices along; without values it is that in the y axis.
+    let mut pairs = old.shape.2.iter().zip(&new.shape.2);
+    let is_image = pairs.all(|(old, new)| old[0].is_opposite(&new[0]) && old[1..] == new[1..]);
+    let has_numbers = old.shape.2.len() == new.shape.2.len();
+    if old.locked_vertices == new.locked_vertices && has_numbers && !is_image {
         let mut locked = old.locked_vertices.iter();
         if let Some(moved) = locked.find(|index| vertex(old, **index) != vertex(new, **index)) {
             return Err(format!(

@@ -55,6 +55,11 @@ pub struct Bit(f64);
 impl Bit {
     /// The weight of a vertex of a polynomial curve.
     pub const ONE: Self = Self(1.0);
+
+    /// Whether the one number is the other with the other sign.
+    pub fn is_opposite(&self, other: &Self) -> bool {
+        self.0 == -other.0
+    }
 }
 
 impl PartialEq for Bit {

@@ -391,8 +391,8 @@ fn operations_are_offered_where_they_can_run() {
     let corrections = ["translate-end", "rotate-end"];
     let all: Vec<&str> = ALL.iter().map(|operation| operation.name).collect();
     let (mut script, _) = s_curve();
-    // One curve is there, and no points.
-    let others = ["join", "fit"];
+    // One curve is there, no points and no reference.
+    let others = ["join", "fit", "to-float"];
     let offered_here = |name: &&str| !corrections.contains(name) && !others.contains(name);
     let here: Vec<&str> = all.iter().copied().filter(offered_here).collect();
     assert_eq!(offered(&script), here);

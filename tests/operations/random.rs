@@ -122,6 +122,8 @@ fn assert_harmless(seed: u64) {
                         | OperationError::Fit(_)
                         | OperationError::Piece { .. }
                         | OperationError::Exclude { .. }
+                        | OperationError::Needs { .. }
+                        | OperationError::NoDirection { .. }
                         | OperationError::Correction(_)),
                     ) => {
                         assert!(!error.to_string().is_empty());

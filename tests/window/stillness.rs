@@ -224,7 +224,7 @@ fn layers_and_the_comb_are_in_sight_in_a_small_window_and_tell_their_keys() {
         let place = window.get_by_label(label).rect();
         assert!(canvas.contains_rect(place), "{label}: {place:?}");
     }
-    window.get_by_label_contains("degree 3");
+    // The degree gives way to the hint: the inspector tells it.
     window.get_by_label_contains("scale ");
     window.get_by_label("Live harmony");
     window.hover_at(window.get_by_label("Evolute").rect().center());
