@@ -371,6 +371,9 @@ pub(super) fn mark_near(near: &mut [bool], vertex: usize, span: usize, periodic:
 
 /// The weights with which the float vertices enter a vertex of the closed S-polygon.
 ///
+/// Beside an end all n + 1 vertices of its segment are listed, some with the weight 0: all of them follow. Without some
+/// of them the conditions at the end would leave too little freedom, and throw the curve.
+///
 /// # Errors
 /// [`PolygonError`] if the closed polygon has no such vertex.
 fn clamped_weights(
@@ -405,6 +408,5 @@ fn clamped_weights(
     }
     let sum: f64 = weights.iter().map(|(_, weight)| weight).sum();
     weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
-    weights.retain(|(_, weight)| *weight != 0.0);
     Ok(weights)
 }
