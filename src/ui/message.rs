@@ -1,6 +1,6 @@
 //! The editor's message, in the canvas's corner above the status bar.
 
-use eframe::egui::{Align2, Context, Frame, Label, Rect, RichText, Stroke, vec2};
+use eframe::egui::{Align2, Context, Frame, Label, Rect, RichText, ScrollArea, Stroke, vec2};
 use lucide_icons::Icon;
 
 use super::action::Action;
@@ -11,6 +11,9 @@ use crate::editor::{Command, Editor};
 
 /// The widest that a message gets before it wraps.
 const WIDTH: f32 = 460.0;
+
+/// The tallest that its text gets before it scrolls: some eight lines.
+const TALLEST: f32 = 130.0;
 
 /// Begin a text with a capital: those of the command line do not. Names of files stay.
 pub fn sentence(text: &str) -> String {
@@ -59,7 +62,8 @@ pub fn message_ui(
                     let buttons = offers.into_iter().filter(|it| *it).count();
                     ui.set_max_width(width - (18.0 + 14.0 * buttons as f32) * STEP);
                     let text = RichText::new(sentence(&message.text)).color(tokens.text);
-                    ui.add(Label::new(text).wrap().selectable(true));
+                    let lines = ScrollArea::vertical().max_height(TALLEST);
+                    lines.show(ui, |ui| ui.add(Label::new(text).wrap().selectable(true)));
                 });
                 if message.offers_undo && ui.small_button("Undo").clicked() {
                     commands.push(Command::Undo.into());
