@@ -67,7 +67,7 @@ fn check_pairs(pairs: u64) {
         let mut curve = || {
             let degree = 2 + (random.bits() % 6) as usize;
             let count = degree + 1 + (random.bits() % 10) as usize;
-            let in_space = random.bits() % 4 == 0;
+            let in_space = random.bits().is_multiple_of(4);
             let mut place = DVec3::ZERO;
             let vertices = (0..count).map(|_| {
                 place += DVec3::X + random.vector(1.0, in_space);
