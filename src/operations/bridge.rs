@@ -8,7 +8,7 @@ use super::parameter::{Kind, Parameter};
 use super::value::Value;
 use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, largest_jump};
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{FloatPolygon, significant};
+use crate::geometry::{BezierPolygon, FloatPolygon, significant};
 
 /// How many vertices a bridge has.
 pub(super) const BRIDGE: Parameter = Parameter {
@@ -76,14 +76,21 @@ pub(super) fn remarks(found: &Bridged) -> Vec<String> {
 /// between two arcs four lengths apart it is 5.4 times, across a gap of 1 % with a corner of 3° 13 times.
 const SHARPEST: f64 = 6.0;
 
+/// A gap of at most this share of the parts' size is short: across a longer one a bend is a matter of taste, and seen.
+const SHORT: f64 = 0.05;
+
 /// The samples of a segment at which curvatures are compared.
 const SAMPLES: usize = 32;
 
-/// Say why a bridge between two parts is no use: it goes a long way round, or is bent sharply.
+/// Say why a bridge between two parts is no use: it goes a long way round, or is bent sharply across a short gap.
 pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
     if found.is_long {
         let [length, gap] = [found.length, found.gap].map(|it| significant(it, 3));
         return Some(format!("A bridge is {length} long, the gap {gap}"));
+    }
+    let sizes = parts.map(|part| BezierPolygon::from_float(part).size());
+    if found.gap > SHORT * sizes[0].max(sizes[1]) {
+        return None;
     }
     let most = |polygon: &FloatPolygon, [from, to]: [f64; 2]| {
         let count = ((to - from).ceil() as usize * SAMPLES).max(SAMPLES);
