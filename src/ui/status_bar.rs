@@ -18,7 +18,7 @@ pub const HEIGHT: f32 = 34.0;
 
 /// The width that is kept for the hint: the longest ones that are usual fit in two lines of it, also in a small window
 /// with the scale.
-const HINT: f32 = 180.0;
+const HINT: f32 = 170.0;
 
 /// The lines that the hint takes at most.
 const HINT_ROWS: usize = 2;
