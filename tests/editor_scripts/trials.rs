@@ -1009,10 +1009,34 @@ fn what_is_done_is_told_before_its_features_are_proved() {
     assert_eq!(script.trial_report().features, None);
     let note = script.editor.operating().apply().expect("a step");
     assert!(!note.text.contains("extrema"), "{}", note.text);
+    let told = script.editor.message().map(|it| it.text.clone());
+    assert_eq!(told, Some(note.text));
     let is_proved = |script: &Script| script.trial_report().features.is_some();
     wait_until(&mut script, &woken, is_proved);
     let features = script.trial_report().features.expect("proved features");
     assert_eq!(features.before[0].curvature_extrema, before);
     assert_eq!(features.after[0].curvature_extrema, expected(&script));
     assert!(before > 500);
+    // What was told of the step is completed.
+    let message = script.editor.message().expect("a message");
+    assert!(message.text.contains("curvature extrema: "), "{message:?}");
+}
+
+#[test]
+fn the_end_fit_panel_tells_added_extrema_once_they_are_proved() {
+    let (mut script, _) = long();
+    script.tool(ToolKind::EndFit);
+    script.end_fit_action(EndFitAction::Choose(End::Finish));
+    let point = script.polygon().end_jet(End::Finish).point;
+    script.end_fit_action(EndFitAction::SetPoint(point + DVec3::new(0.0, 0.5, 0.0)));
+    let woken = run_in_background(&mut script);
+    script.end_fit_action(EndFitAction::BothAtOnce);
+    let is_told = |script: &Script| {
+        let editor = &script.editor;
+        let report = editor.hand().end_fit(editor.workspace(), editor.view());
+        let outcome = report.and_then(|it| it.outcome);
+        matches!(outcome, Some(Ok(note)) if note.text.contains("curvature extrema: "))
+    };
+    wait_until(&mut script, &woken, is_told);
+    assert_eq!(script.steps(), 2);
 }

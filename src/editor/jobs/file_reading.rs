@@ -14,7 +14,7 @@ use crate::io::{
     ColumnChoice, FileError, FileProblem, Fingerprint, Problem, ReadError, Reading, TableColumn,
     disk, formats,
 };
-use crate::operations::{FloatWish, OperationError, floated};
+use crate::operations::{FloatRequest, OperationError, floated};
 
 /// The time to make float polygons of the references of some files.
 const FLOAT_TIME: Duration = Duration::from_secs(60);
@@ -199,12 +199,12 @@ impl FilesToRead {
         remarks.retain(|lines| !lines.is_empty());
         let mut document = reading.into_document()?;
         if let Some(choice) = choice.filter(|choice| choice.to_float) {
-            let wish = FloatWish {
+            let request = FloatRequest {
                 degree: None,
                 tolerance: choice.tolerance,
             };
             let progress = Progress::default().limited(FLOAT_TIME);
-            let (made, told) = floated(&document, wish, &progress)?;
+            let (made, told) = floated(&document, request, &progress)?;
             document = made;
             remarks.extend(told);
         }

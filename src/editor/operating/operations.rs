@@ -416,14 +416,7 @@ impl Operating<'_> {
         }
         match self.operations.client.take_result() {
             Some(JobResult::Run(run)) => self.take_run(*run),
-            Some(JobResult::Features(features)) => {
-                if let Some(current) = &mut self.operations.operation
-                    && let Some(Ok(run)) = &mut current.run
-                {
-                    current.features.clone_from(&features);
-                    run.report.features = features;
-                }
-            }
+            Some(JobResult::Features(features)) => self.take_features(features),
             None => {}
         }
     }
@@ -466,6 +459,27 @@ impl Operating<'_> {
         }
         if succeeds {
             self.request_features();
+        }
+    }
+
+    /// Complete the report, and what was told of it: features are proved after the step is done.
+    fn take_features(&mut self, features: Option<FeatureComparison>) {
+        let told = self.reply();
+        let Some(current) = &mut self.operations.operation else {
+            return;
+        };
+        let Some(Ok(run)) = &mut current.run else {
+            return;
+        };
+        current.features.clone_from(&features);
+        run.report.features = features;
+        let reply = self.reply();
+        if *self.message == Message::of(&told) {
+            *self.message = Message::of(&reply);
+        }
+        let last = self.hand.settings.last_end_fit.as_mut();
+        if let Some(last) = last.filter(|last| last.reply == told) {
+            last.reply = reply;
         }
     }
 
