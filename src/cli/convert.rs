@@ -10,7 +10,7 @@ use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{PolygonKind, Progress};
 use crate::io::examples::Example;
 use crate::io::{Export, ExportChoice};
-use crate::operations::{FloatWish, floated, lowered};
+use crate::operations::{FloatRequest, floated, lowered};
 
 /// What happens on the way from one file to another.
 #[derive(Debug)]
@@ -37,11 +37,11 @@ impl Conversion {
         if !self.to_float {
             return Ok(document);
         }
-        let wish = FloatWish {
+        let request = FloatRequest {
             degree: None,
             tolerance: self.tolerance,
         };
-        let (made, told) = floated(&document, wish, &Progress::default())?;
+        let (made, told) = floated(&document, request, &Progress::default())?;
         told.iter().for_each(|line| output::message(line));
         Ok(made)
     }

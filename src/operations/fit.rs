@@ -17,7 +17,7 @@ use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{self, FitRequest, fit_points};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::fitting::{CountedPoints, Extrema, FitError, Fitted, Mirror, PlaneFit};
+use crate::geometry::fitting::{CountedPoints, Extrema, FitError, Fitted, PlaneFit, SymmetryAxis};
 use crate::geometry::parameters::{OutOfRange, Quantity};
 use crate::geometry::{FloatPolygon, MAX_DEGREE, Progress, counted, significant};
 
@@ -443,8 +443,11 @@ fn asked(points: usize, values: &Values) -> Result<PlaneFit, OperationError> {
 ///
 /// # Errors
 /// If it cannot be with the other values.
-fn mirror(values: &Values) -> Result<Option<Mirror>, OperationError> {
-    let mirror = values.choice(&SYMMETRIC, &[None, Some(Mirror::X), Some(Mirror::Y)]);
+fn mirror(values: &Values) -> Result<Option<SymmetryAxis>, OperationError> {
+    let mirror = values.choice(
+        &SYMMETRIC,
+        &[None, Some(SymmetryAxis::X), Some(SymmetryAxis::Y)],
+    );
     let other = [&PERIODIC, &SPLIT].into_iter().find(|it| values.switch(it));
     if let (Some(_), Some(other)) = (mirror, other) {
         return Err(OperationError::Exclude {

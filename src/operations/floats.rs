@@ -33,7 +33,7 @@ const STEPS: usize = 8;
 
 /// The float polygons that references get.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FloatWish {
+pub struct FloatRequest {
     /// The degree; without one, of some from 4 on and not below that of a spline, the one with the fewest vertices.
     pub degree: Option<usize>,
     /// How far they may be off; without it 1e-4 of a reference's size.
@@ -67,7 +67,7 @@ pub struct Floats {
 /// is found.
 pub fn floats_of(
     reference: &Reference,
-    wish: FloatWish,
+    request: FloatRequest,
     progress: &Progress,
 ) -> Result<Floats, OperationError> {
     let curve = &reference.curve;
@@ -75,7 +75,7 @@ pub fn floats_of(
         return Err(OperationError::PointsOnly);
     }
     curve.check_points()?;
-    let tolerance = wish.tolerance.unwrap_or(WITHIN * size(curve));
+    let tolerance = request.tolerance.unwrap_or(WITHIN * size(curve));
     let parts = parts(curve)?;
     let count = parts.len();
     let mut floats = Floats {
@@ -92,7 +92,7 @@ pub fn floats_of(
         let own = progress.part(share(index), share(index + 1));
         let found = near(
             part,
-            wish.degree,
+            request.degree,
             tolerance,
             &own.hurried(1.0 / (count - index) as f64),
         )?;
@@ -127,7 +127,7 @@ pub fn floats_of(
 /// [`OperationError::Edit`] if the document cannot take them; never for those that are made here.
 pub fn floated(
     document: &Document,
-    wish: FloatWish,
+    request: FloatRequest,
     progress: &Progress,
 ) -> Result<(Document, Vec<String>), OperationError> {
     let references = document.references();
@@ -140,7 +140,7 @@ pub fn floated(
         let share = |index: usize| index as f64 / smooth.len() as f64;
         let own = progress.part(share(index), share(index + 1));
         let own = own.hurried(1.0 / (smooth.len() - index) as f64);
-        let text = match floats_of(reference, wish, &own.limited(TIME)) {
+        let text = match floats_of(reference, request, &own.limited(TIME)) {
             Ok(floats) if floats.is_within => {
                 let text = floats.told();
                 edits.push(Edit::Remove(*id));

@@ -47,7 +47,7 @@ pub use amount::Amount;
 pub use atlas::Atlas;
 pub use error::OperationError;
 pub use features::{FeatureComparison, FeatureCounts};
-pub use floats::{FloatWish, floated};
+pub use floats::{FloatRequest, floated};
 pub use handle::{Handle, OnCurve, Sets};
 pub use inputs::Inputs;
 pub use lowering::{Lowered, lowered};

@@ -4,7 +4,7 @@ use std::ops::Bound;
 use std::sync::Arc;
 
 use super::error::OperationError;
-use super::floats::{FloatWish, floats_of};
+use super::floats::{FloatRequest, floats_of};
 use super::inputs::Inputs;
 use super::lists::{given, given_count};
 use super::operands::Operands;
@@ -115,7 +115,7 @@ fn is_within(group: &Group, outer: &Group) -> bool {
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let references = converted(input, values.choice(&REFERENCES, &WHICH));
-    let wish = FloatWish {
+    let request = FloatRequest {
         degree: given_count(values, &DEGREE),
         tolerance: given(values, &TOLERANCE),
     };
@@ -127,7 +127,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         let share = |index: usize| index as f64 / references.len() as f64;
         let own = search.part(share(index), share(index + 1));
         let own = own.hurried(1.0 / (references.len() - index) as f64);
-        let found = floats_of(reference, wish, &own);
+        let found = floats_of(reference, request, &own);
         if progress.is_cancelled() {
             return Err(OperationError::Cancelled);
         }

@@ -1,7 +1,7 @@
 //! Fits that are their own mirror images.
 
 use batten::geometry::features::{Feature, Features};
-use batten::geometry::fitting::{Extrema, FitError, Fitted, Mirror, PlaneFit, fit_plane};
+use batten::geometry::fitting::{Extrema, FitError, Fitted, PlaneFit, SymmetryAxis, fit_plane};
 use batten::geometry::{End, Progress};
 use glam::DVec2;
 
@@ -26,12 +26,12 @@ fn fitted(points: &[DVec2], asked: PlaneFit) -> Result<Fitted, FitError> {
 }
 
 /// Check that a fit is its own image, bit for bit.
-fn check_image(found: &Fitted, mirror: Mirror, what: &str) {
+fn check_image(found: &Fitted, mirror: SymmetryAxis, what: &str) {
     let vertices = found.polygon.vertices();
     for (vertex, other) in vertices.iter().zip(vertices.iter().rev()) {
         let image = match mirror {
-            Mirror::X => [other.x, -other.y],
-            Mirror::Y => [-other.x, other.y],
+            SymmetryAxis::X => [other.x, -other.y],
+            SymmetryAxis::Y => [-other.x, other.y],
         };
         assert_eq!([vertex.x, vertex.y], image, "{what}");
     }
@@ -42,13 +42,13 @@ fn a_symmetric_fit_is_its_own_image_with_odd_and_even_numbers_of_vertices() {
     for count in [14, 15] {
         let points = section(31, 0.0);
         let asked = PlaneFit {
-            mirror: Some(Mirror::X),
+            mirror: Some(SymmetryAxis::X),
             count: Some(count),
             extrema: Extrema::Exactly(1),
             ..PlaneFit::default()
         };
         let found = fitted(&points, asked).expect("a fit");
-        check_image(&found, Mirror::X, &count.to_string());
+        check_image(&found, SymmetryAxis::X, &count.to_string());
         let features = Features::proved(&found.polygon, |_| true).expect("features");
         assert!(found.holds && features.count(Feature::CurvatureExtremum) == 1);
         assert!(found.deviation < 2e-3, "{count}: {}", found.deviation);
@@ -60,12 +60,12 @@ fn points_that_are_not_quite_images_are_met_in_the_middle() {
     // The sides differ in number and by 2 %, along the other axis, and the fewest extrema are an odd number.
     let turned: Vec<DVec2> = section(24, 0.02).iter().map(|it| it.perp()).collect();
     let asked = PlaneFit {
-        mirror: Some(Mirror::Y),
+        mirror: Some(SymmetryAxis::Y),
         tolerance: Some(2e-3),
         ..PlaneFit::default()
     };
     let found = fitted(&turned, asked).expect("a fit");
-    check_image(&found, Mirror::Y, "turned");
+    check_image(&found, SymmetryAxis::Y, "turned");
     assert!(
         found.deviation < 2e-3 && found.extrema % 2 == 1,
         "{found:?}"
@@ -78,14 +78,14 @@ fn ends_of_a_symmetric_fit_are_images_too() {
     let points = section(31, 0.0);
     let direction = DVec2::new(-1.0, 0.15).normalize();
     let asked = PlaneFit {
-        mirror: Some(Mirror::X),
+        mirror: Some(SymmetryAxis::X),
         extrema: Extrema::Exactly(3),
         exact_ends: [true, true],
         directions: [Some(direction), None],
         ..PlaneFit::default()
     };
     let found = fitted(&points, asked).expect("a fit");
-    check_image(&found, Mirror::X, "ends");
+    check_image(&found, SymmetryAxis::X, "ends");
     let [start, end] = [End::Start, End::Finish].map(|end| found.polygon.end_jet(end));
     assert!(start.point.truncate().distance(points[0]) < 1e-9);
     assert!(end.point.truncate().distance(points[60]) < 1e-9);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::mirror::Mirror;
+use super::symmetry_axis::SymmetryAxis;
 
 /// Where the unknowns of the vertices stand.
 ///
@@ -90,7 +90,7 @@ impl Layout {
 
     /// Make equations of vertices those of curves that are their own mirror images: the mean of them and their
     /// images.
-    pub(super) fn symmetrise(&self, mirror: Mirror, matrix: &mut BandMatrix) {
+    pub(super) fn symmetrise(&self, mirror: SymmetryAxis, matrix: &mut BandMatrix) {
         let (mirrored, band) = (self.mirrored(), matrix.band);
         let old = matrix.columns.clone();
         for (column, entries) in matrix.columns.chunks_exact_mut(band).enumerate() {
@@ -109,7 +109,7 @@ impl Layout {
     }
 
     /// Do so with the right side of the equations.
-    pub(super) fn symmetrise_right(&self, mirror: Mirror, right: &mut [f64]) {
+    pub(super) fn symmetrise_right(&self, mirror: SymmetryAxis, right: &mut [f64]) {
         let old = right.to_vec();
         for (unknown, other) in self.mirrored().into_iter().enumerate() {
             right[unknown] = 0.5 * (old[unknown] + mirror.factor(unknown) * old[other]);

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::mirror::Mirror;
+use super::symmetry_axis::SymmetryAxis;
 
 /// The number of extrema that is wished.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -51,7 +51,7 @@ pub struct PlaneFit {
     pub outliers: Option<Vec<usize>>,
     /// The axis in which the curve is its own mirror image. An open one has an odd number of extrema then, and an
     /// even one of inflections; the conditions at the start count for the end too.
-    pub mirror: Option<Mirror>,
+    pub mirror: Option<SymmetryAxis>,
     /// Whether more numbers of extrema are tried than it takes, to tell what each of them reaches.
     pub lists_trade_off: bool,
     /// How much each point counts; `None` if all count the same. Those of weight 0 do not count.

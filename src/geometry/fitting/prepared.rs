@@ -5,10 +5,10 @@ use glam::{DVec2, DVec3};
 use super::counted_points::{CountedPoints, ENOUGH, MANY, every, kept_of};
 use super::error::FitError;
 use super::levels::size;
-use super::mirror::Mirror;
 use super::neighbours::with_middles;
 use super::plane_fit::{Extrema, PlaneFit};
 use super::problem::{EndCondition, EndValue};
+use super::symmetry_axis::SymmetryAxis;
 use crate::geometry::control_polygon::check_size;
 use crate::geometry::end::End;
 
@@ -237,7 +237,7 @@ fn mirrored_ends(
     points: &[DVec2],
     asked: &PlaneFit,
     unit: f64,
-    mirror: Mirror,
+    mirror: SymmetryAxis,
 ) -> Vec<EndCondition> {
     let [first, last] = [points.first().copied(), points.last().copied()];
     let image = |vector: Option<DVec2>| vector.map(|it| mirror.image(it));

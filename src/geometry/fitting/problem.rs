@@ -3,11 +3,11 @@
 use glam::DVec2;
 
 use super::banded_rows::{BandMatrix, Layout, Rows};
-use super::mirror::Mirror;
 use super::monotone_runs::best_runs;
 use super::sign_runs::SignRuns;
 use super::slope_coefficients::SlopeTables;
 use super::splines::Splines;
+use super::symmetry_axis::SymmetryAxis;
 use crate::geometry::banded::difference_stencil;
 use crate::geometry::end::End;
 
@@ -64,7 +64,7 @@ pub(super) struct Data<'a> {
     /// The vertices that stay, of a curve with the number of vertices asked for.
     pub(super) held: &'a [HeldVertex],
     /// The axis in which the curve is its own mirror image.
-    pub(super) mirror: Option<Mirror>,
+    pub(super) mirror: Option<SymmetryAxis>,
 }
 
 impl Data<'_> {

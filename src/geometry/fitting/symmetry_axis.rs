@@ -1,19 +1,19 @@
-//! Mirror images: a curve that is its own has half of its unknowns.
+//! The axis of a symmetric curve, which has half of the unknowns.
 
 use glam::DVec2;
 
 use super::sign_runs::SignRuns;
 
-/// The coordinate axis that a curve is mirrored in.
+/// The coordinate axis in which a curve is its own mirror image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mirror {
+pub enum SymmetryAxis {
     /// The x axis: y changes its sign.
     X,
     /// The y axis: x changes its sign.
     Y,
 }
 
-impl Mirror {
+impl SymmetryAxis {
     /// The factors of the coordinates.
     fn factors(self) -> DVec2 {
         match self {
@@ -78,13 +78,13 @@ mod tests {
     fn the_second_half_is_the_image_of_the_first() {
         let mut vertices = [(0.0, 1.0), (1.0, 0.7), (2.0, 0.1), (1.1, -0.6), (0.3, -1.0)];
         let mut vertices = vertices.each_mut().map(|it| DVec2::from(*it));
-        Mirror::X.symmetrise(&mut vertices);
+        SymmetryAxis::X.symmetrise(&mut vertices);
         assert_eq!(vertices[2], DVec2::new(2.0, 0.0));
         for index in 0..5 {
-            assert_eq!(vertices[4 - index], Mirror::X.image(vertices[index]));
+            assert_eq!(vertices[4 - index], SymmetryAxis::X.image(vertices[index]));
         }
         assert_eq!(
-            Mirror::Y.onto_axis(DVec2::new(3.0, 4.0)),
+            SymmetryAxis::Y.onto_axis(DVec2::new(3.0, 4.0)),
             DVec2::new(0.0, 4.0)
         );
     }
