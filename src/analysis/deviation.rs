@@ -90,3 +90,30 @@ impl<'a> Shape<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::document::Curve;
+    use crate::geometry::FloatPolygon;
+
+    fn line(y: f64) -> Item {
+        let points = [(0.0, y), (1.0, y), (2.0, y)];
+        let polygon = FloatPolygon::planar(2, &points).expect("a polygon");
+        Item::Curve(Arc::new(Curve::new("line".to_owned(), polygon)))
+    }
+
+    #[test]
+    fn a_cancelled_measurement_has_no_deviation() {
+        let (first, second) = (line(0.0), line(1.0));
+        let progress = Progress::default();
+        let measured = Deviation::measure([&first, &second], &progress);
+        let measured = measured.expect("curves have points").expect("two curves");
+        assert_eq!(measured.largest().map(|(_, it)| it.distance()), Some(1.0));
+        progress.cancel();
+        let cancelled = Deviation::measure([&first, &second], &progress);
+        assert_eq!(cancelled, Err(DistanceError::Cancelled));
+    }
+}

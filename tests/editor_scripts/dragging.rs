@@ -102,7 +102,9 @@ fn a_drag_names_what_it_snaps_to() {
     for (place, name) in targets {
         script.move_to(place + near);
         let told = readout(&mut script).expect("a readout").remarks;
-        assert_eq!(told.first().map(String::as_str), Some(name));
+        let (first, added) = told.split_first().expect("the name of the snap");
+        assert_eq!(first, name);
+        assert!(added.iter().all(|it| it.starts_with('+')), "{added:?}");
         let marks = &script.scene().marks;
         assert!(
             marks.iter().any(|mark| matches!(mark, Mark::Snap(_))),
@@ -248,7 +250,7 @@ fn a_drag_seen_at_an_angle_snaps_to_the_grid_on_the_ground() {
     script.press(script.at_vertex(3));
     script.move_to(seen + DVec2::new(2.0, -1.0));
     let told = readout(&mut script).expect("a readout").remarks;
-    assert_eq!(told.first().map(String::as_str), Some("Grid"));
+    assert_eq!(told, ["Grid", "+1 curvature extremum"]);
     script.release(seen + DVec2::new(2.0, -1.0));
     let off = script.polygon().vertex(3).distance(crossing);
     assert!(off < 1e-12 * crossing.length(), "{off}");
