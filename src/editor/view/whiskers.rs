@@ -28,7 +28,8 @@ impl Whiskers {
         let own = || {
             let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
             let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
-            round_below(LONGEST * (high - low).length() / largest)
+            // Shorter than they are, distances would mislead.
+            round_below(LONGEST * (high - low).length() / largest).max(1.0)
         };
         let scale = self.scale.unwrap_or_else(own);
         // No distance, or no number.
@@ -69,7 +70,7 @@ mod tests {
         let own = Whiskers::default();
         assert_eq!(own.scale_for(&points, 3e-4), 100.0);
         assert_eq!(own.scale_for(&points, 2.4e-4), 200.0);
-        for largest in [0.0, f64::NAN] {
+        for largest in [0.0, f64::NAN, 3.0] {
             assert_eq!(own.scale_for(&points, largest), 1.0);
         }
         assert_eq!(own.scale_for(&[], 1.0), 1.0);
