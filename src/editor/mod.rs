@@ -284,7 +284,7 @@ impl Editor {
     }
 
     /// Make edits as one step, or as a part of the last one where a key `repeats`; tells which
-    /// matches that dissolves. The first curve of a document is brought into view.
+    /// matches that dissolves. The first curve of a document is brought into view, unless it is there.
     fn make(&mut self, label: &str, edits: Vec<Edit>, repeats: bool) -> Reply {
         let was_empty = self.document().is_empty();
         let before = self.workspace.settled().clone();
@@ -295,7 +295,8 @@ impl Editor {
         };
         self.document_changed();
         if was_empty && !self.document().is_empty() {
-            self.look(Look::All);
+            self.look(Look::New(self.document().all_ids().collect()));
+            self.look(Look::ResetComb);
         }
         made?;
         Ok(Note::told(dissolved(self.document(), &before)))

@@ -59,9 +59,7 @@ pub(super) fn figures(found: &Bridged) -> Vec<Figure> {
 pub(super) fn remarks(found: &Bridged) -> Vec<String> {
     let halved = (found.halvings > 0).then(|| {
         let pieces = 1_usize << found.halvings;
-        format!(
-            "Each segment became {pieces}, so that the bridge fits into the gap; the curves stay"
-        )
+        format!("Each segment became {pieces}, so that the bridge fits into the gap")
     });
     let undecided = (found.undecided > 0).then(|| {
         format!(
@@ -75,6 +73,10 @@ pub(super) fn remarks(found: &Bridged) -> Vec<String> {
 /// How many times as much a bridge may bend as the parts do anywhere, or as the turns at its ends need over the gap:
 /// between two arcs four lengths apart it is 5.4 times, across a gap of 1 % with a corner of 3° 13 times.
 const SHARPEST: f64 = 6.0;
+
+/// A bridge that bends more than so many times as sharply as its parts, or as the turn over the gap needs, is seen as
+/// a knuckle.
+const SHARPER: f64 = 2.0;
 
 /// A gap of at most this share of the parts' size is short: across a longer one a bend is a matter of taste, and seen.
 const SHORT: f64 = 0.05;
@@ -92,6 +94,24 @@ pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String
     if found.gap > SHORT * sizes[0].max(sizes[1]) {
         return None;
     }
+    let (sharpest, needed) = bends(found, parts);
+    (sharpest > SHARPEST * needed).then(|| {
+        let radius = significant(1.0 / sharpest, 3);
+        format!("A bridge is bent to a radius of {radius}")
+    })
+}
+
+/// Say that a bridge is bent more sharply than its parts and the gap make one expect.
+pub(super) fn knuckle(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
+    let (sharpest, needed) = bends(found, parts);
+    (sharpest > SHARPER * needed).then(|| {
+        let radius = significant(1.0 / sharpest, 3);
+        format!("The bridge is bent to a radius of {radius}, sharper than the curves")
+    })
+}
+
+/// The largest curvature of a bridge, and the larger of that of its parts and that which turns the ends over the gap.
+fn bends(found: &Bridged, parts: [&FloatPolygon; 2]) -> (f64, f64) {
     let most = |polygon: &FloatPolygon, [from, to]: [f64; 2]| {
         let count = ((to - from).ceil() as usize * SAMPLES).max(SAMPLES);
         let at = |index: usize| from + (to - from) * index as f64 / count as f64;
@@ -104,16 +124,9 @@ pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String
     let way = to.point - from.point;
     let turns = [from, to].map(|jet| jet.tangent().map_or(PI, |it| it.angle_between(way)));
     // Over no way there is no angle.
-    let turn = turns
-        .into_iter()
-        .filter(|turn| turn.is_finite())
-        .sum::<f64>();
-    let needed = own[0].max(own[1]).max(turn / found.gap);
-    let sharpest = most(&found.polygon, [end, start]);
-    (sharpest > SHARPEST * needed).then(|| {
-        let radius = significant(1.0 / sharpest, 3);
-        format!("A bridge is bent to a radius of {radius}")
-    })
+    let turns = turns.into_iter().filter(|turn| turn.is_finite());
+    let needed = own[0].max(own[1]).max(turns.sum::<f64>() / found.gap);
+    (most(&found.polygon, [end, start]), needed)
 }
 
 /// Annotation the vertices of a bridge.

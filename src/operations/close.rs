@@ -1,6 +1,6 @@
 //! A curve whose ends are joined, so that it is periodic.
 
-use super::bridge::{BRIDGE, annotations, fault, figures, found, joint, remarks};
+use super::bridge::{BRIDGE, annotations, fault, figures, found, joint, knuckle, remarks};
 use super::editable::open;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -57,7 +57,11 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     outcome.renumbered = false;
     outcome.figures = figures(&found);
     outcome.remarks.extend(remarks(&found));
-    if let Some(fault) = fault(&found, [&curve.polygon; 2]) {
+    let polygons = [&curve.polygon; 2];
+    let fault = fault(&found, polygons);
+    let knuckle = knuckle(&found, polygons).filter(|_| fault.is_none());
+    outcome.warnings.extend(knuckle);
+    if let Some(fault) = fault {
         let failed = Requirement::Failed { left: None };
         outcome.requirements = vec![(id, vec![failed])];
         outcome

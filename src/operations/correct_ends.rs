@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::amount::Amount;
 use super::editable::{check_measurable, open};
-use super::end_change::{is_another, moved_far, remarks_on_change};
+use super::end_change::{is_another, moved_far, warnings_of_change};
 use super::error::OperationError;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, locked};
@@ -257,14 +257,14 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         }
         Some(polygon) => {
             let turned = turned_over(&curve.polygon, &polygon);
-            let mut remarks = remarks_on_change(curve, &polygon, turned.as_deref())?;
-            remarks.extend(correction.remark);
+            let warnings = warnings_of_change(curve, &polygon, turned.as_deref())?;
             let is_wrong = turned.is_some() || is_another(curve, &polygon)?;
             let outcome = corrected(id, curve, polygon)?;
             let failed = is_wrong.then_some(Requirement::Failed { left: None });
             let requirements = requirements.iter().cloned().chain(failed).collect();
             Outcome {
-                remarks,
+                warnings,
+                remarks: correction.remark.into_iter().collect(),
                 requirements: vec![(id, requirements)],
                 ..outcome
             }

@@ -1,4 +1,6 @@
-//! Remarks on end corrections that change the curve more than they correct it.
+//! Warnings of end corrections that change the curve more than they correct it.
+
+use std::f64::consts::PI;
 
 use super::error::OperationError;
 use crate::document::Curve;
@@ -17,26 +19,30 @@ const FAR: f64 = 0.02;
 /// curve.
 const ANOTHER: f64 = 0.1;
 
+/// A target direction that turns an end by more than this angle seems to point the wrong way.
+const BACK: f64 = 0.6 * PI;
+
 /// Say where a correction moves the curve far, turns it over, as `turned` says, or leads it out of its plane.
 ///
 /// # Errors
 /// [`OperationError::Polygon`] if it cannot be measured how far the curve moves.
-pub(super) fn remarks_on_change(
+pub(super) fn warnings_of_change(
     curve: &Curve,
     after: &FloatPolygon,
     turned: Option<&str>,
 ) -> Result<Vec<String>, OperationError> {
     let before = &curve.polygon;
-    let mut remarks = Vec::new();
+    let mut warnings = Vec::new();
     let advice = "refine first, or hold vertices with “Also hold vertices” (--locked)";
     if let Some([moved, shift]) = moved_far(curve, after)? {
         let [moved, shift] = [moved, shift].map(|length| significant(length, 3));
-        remarks.push(format!(
+        warnings.push(format!(
             "The curve moves by up to {moved}, its ends by {shift}: {advice}"
         ));
     }
+    warnings.extend(points_back(curve));
     if let Some(turned) = turned {
-        remarks.push(format!("{turned}: {advice}, or turn the target direction"));
+        warnings.push(format!("{turned}: {advice}, or turn the target direction"));
     }
     let crosses = |polygon: &FloatPolygon| {
         let planar = Some(polygon).filter(|it| it.is_planar());
@@ -44,16 +50,30 @@ pub(super) fn remarks_on_change(
     };
     if let (Some(at), None) = (crosses(after), crosses(before)) {
         let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));
-        remarks.push(format!(
+        warnings.push(format!(
             "The curve crosses itself now, at {x}, {y}: {advice}"
         ));
     }
     if before.is_planar() && !after.is_planar() {
-        remarks.push(
+        warnings.push(
             "A target lies outside the plane z = 0: the curve becomes a curve in space".to_owned(),
         );
     }
-    Ok(remarks)
+    Ok(warnings)
+}
+
+/// Say which targets turn an end so far that their directions seem to point the wrong way.
+fn points_back(curve: &Curve) -> impl Iterator<Item = String> {
+    let targets = curve.targets.list().into_iter();
+    targets.filter_map(|(end, target)| {
+        let turn = EndDifference::between(&curve.polygon, end, &target).angle;
+        (turn.abs() > BACK).then(|| {
+            let (name, turn) = (end.name(), significant(turn.abs().to_degrees(), 3));
+            format!(
+                "The target direction turns the {name} by {turn}°: the opposite one may be meant"
+            )
+        })
+    })
 }
 
 /// Whether a correction makes another curve of it.

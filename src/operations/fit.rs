@@ -501,15 +501,8 @@ fn outcome(
     let marked = fitted.iter().flat_map(|found| &found.outliers);
     let marked = marked.filter_map(|(index, _)| input.points().get(*index));
     let worst = |of: fn(&Fitted) -> f64| fitted.iter().map(of).fold(0.0, f64::max);
-    let told = fitted.iter().enumerate().flat_map(|(index, found)| {
-        let told = remarks(asked, found).into_iter();
-        let is_one = fitted.len() == 1;
-        told.map(move |remark| match is_one {
-            true => remark,
-            false => format!("Piece {}: {remark}", index + 1),
-        })
-    });
-    let mut remarks: Vec<String> = told.collect();
+    let warnings = of_pieces(fitted, |found| warnings(asked, found));
+    let mut remarks = of_pieces(fitted, |found| remarks(asked, found));
     if !corners.is_empty() && !values.switch(&SPLIT) {
         let named: Vec<String> = corners.iter().take(NAMED).map(usize::to_string).collect();
         let more = match corners.len().saturating_sub(NAMED) {
@@ -524,6 +517,7 @@ fn outcome(
     Outcome {
         edits: curves.collect(),
         figures: figures(fitted),
+        warnings,
         remarks,
         annotations: marked.map(|point| Annotation::Point(*point)).collect(),
         ..Outcome::unchanged(Deviation::FromPoints(worst(|found| found.deviation)))
@@ -576,6 +570,33 @@ fn figures(fitted: &[Fitted]) -> Vec<Figure> {
 /// Fewer extrema are advised where they bring the points nearer than this share of their distance.
 const NEARER: f64 = 0.8;
 
+/// What is to say of each piece, named where there are several.
+fn of_pieces(fitted: &[Fitted], said: impl Fn(&Fitted) -> Vec<String>) -> Vec<String> {
+    let is_one = fitted.len() == 1;
+    let told = fitted.iter().enumerate().flat_map(|(index, found)| {
+        let told = said(found).into_iter();
+        told.map(move |text| match is_one {
+            true => text,
+            false => format!("Piece {}: {text}", index + 1),
+        })
+    });
+    told.collect()
+}
+
+/// What the user may not want: a loop, and vertices far away.
+fn warnings(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
+    let crossing = found.crossing.map(|at| {
+        let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));
+        let advice = match asked.periodic || asked.exact_ends == [true; 2] {
+            true => "ask for more extrema",
+            false => "hold exact ends, or ask for more extrema",
+        };
+        format!("The curve crosses itself at {x}, {y}, its points do not: {advice}")
+    });
+    let tails = tails(&found.polygon);
+    crossing.into_iter().chain(tails).collect()
+}
+
 /// What is to say beside the figures.
 fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
     let mut remarks = remarks_on_points(&found.outliers, &found.repeated);
@@ -624,17 +645,6 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
             )
         }));
     }
-    if let Some(at) = found.crossing {
-        let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));
-        let advice = match asked.periodic || asked.exact_ends == [true; 2] {
-            true => "ask for more extrema",
-            false => "hold exact ends, or ask for more extrema",
-        };
-        remarks.push(format!(
-            "The curve crosses itself at {x}, {y}, its points do not: {advice}"
-        ));
-    }
-    remarks.extend(remark_on_tails(&found.polygon));
     if asked.mirror.is_some() && found.deviation > LOPSIDED * found.tolerance {
         let off = significant(found.deviation, 3);
         remarks.push(format!(
@@ -662,7 +672,7 @@ fn remarks_on_points(outliers: &[(usize, f64)], repeated: &[usize]) -> Vec<Strin
 }
 
 /// Name a vertex that lies far off the curve: it can hardly be dragged.
-fn remark_on_tails(polygon: &FloatPolygon) -> Option<String> {
+fn tails(polygon: &FloatPolygon) -> Option<String> {
     let places = (0..=4 * polygon.segments()).map(|it| polygon.point(it as f64 / 4.0));
     let places: Vec<DVec3> = places.collect();
     let low = places.iter().copied().fold(DVec3::INFINITY, DVec3::min);

@@ -231,15 +231,11 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         let late = late.then(|| best_so_far(&progress, values));
         outcome.remarks.extend(late);
     }
-    outcome
-        .remarks
-        .extend(turned.map(|turned| format!("{turned}: ask for more extrema")));
-    match flung {
-        Some(flung) => outcome.remarks.push(flung),
-        None => outcome
-            .remarks
-            .extend(remark_on_tail(&curve.polygon, &found.polygon)),
-    }
+    outcome.warnings = turned
+        .map(|turned| format!("{turned}: ask for more extrema"))
+        .into_iter()
+        .chain(flung.or_else(|| tail(&curve.polygon, &found.polygon)))
+        .collect();
     let raised = required.into_iter().filter_map(|(_, remark)| remark);
     outcome.remarks.extend(raised);
     if found.refitted {
@@ -249,7 +245,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         );
     }
     if found.reached {
-        outcome.remarks.extend(remark_on_deviation(curve, &found));
+        outcome.warnings.extend(far(curve, &found));
         outcome.remarks.extend(remark_on_lost(&found));
         let lost = follows(&found.polygon, &progress) == Some(false)
             && follows(&curve.polygon, &progress) == Some(true);
@@ -260,7 +256,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     }
     if let Some(stretch) = stretch {
         let polygons = [&curve.polygon, &found.polygon];
-        outcome.remarks.extend(added_outside(polygons, stretch));
+        outcome.warnings.extend(added_outside(polygons, stretch));
     }
     // Where no number is given, fewer will do.
     let words = |given: Option<usize>, exact, most| if given.is_some() { exact } else { most };
@@ -290,7 +286,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
 }
 
 /// Say that the curve moves far, and what moves it less.
-fn remark_on_deviation(curve: &Curve, found: &Harmonised) -> Option<String> {
+fn far(curve: &Curve, found: &Harmonised) -> Option<String> {
     let size = BezierPolygon::from_float(&curve.polygon).size();
     (found.deviation > TOLD * size).then(|| {
         let moved = significant(found.deviation, 3);
@@ -351,7 +347,7 @@ fn one_end() -> [Option<Held>; 7] {
 }
 
 /// Name a vertex that moves far beside the size of the curve: the polygon folds, however near the curve stays.
-fn remark_on_tail(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
+fn tail(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
     let size = BezierPolygon::from_float(before).size();
     let (vertex, distance) = farthest_move(before, after)?;
     (distance > FAR_MOVE * size).then(|| {

@@ -109,6 +109,11 @@ const SMALL: f64 = 0.03;
 /// The share of a tolerance that is tried where nothing is found with it.
 const NEARER: f64 = 0.2;
 
+/// A chain that moves the second curve by more than this share of its size, and so many times the gap, is told as a
+/// warning: closing the gap must move it, a demand for curvature need not throw it.
+const FAR: f64 = 0.01;
+const FARTHER: f64 = 2.0;
+
 /// The time that a merged curve is looked for.
 const MERGING: Duration = Duration::from_secs(10);
 
@@ -371,11 +376,7 @@ impl Joining<'_> {
             deviation,
             bounded,
             extrema,
-        } = found.map_err(|error| match error {
-            MergeError::Cancelled if progress.is_late() => MergeError::NotFound.into(),
-            MergeError::Cancelled => OperationError::Cancelled,
-            error => error.into(),
-        })?;
+        } = found.map_err(|error| merge_error(error, &progress))?;
         let deviation_is = match bounded {
             true => Deviation::AtMost(deviation),
             false => Deviation::Measured(deviation),
@@ -468,7 +469,10 @@ impl Joining<'_> {
         outcome.remarks.extend(locks::lost(second, &[&part]));
         outcome.annotations = annotations(&found);
         outcome.joint = Some(joint(&found));
-        let fault = bridge::fault(&found, [&first.polygon, &part]);
+        let polygons = [&first.polygon, &part];
+        let fault = bridge::fault(&found, polygons);
+        let knuckle = bridge::knuckle(&found, polygons).filter(|_| fault.is_none());
+        outcome.warnings.extend(knuckle);
         if let Some(fault) = &fault {
             let failed = Requirement::Failed { left: None };
             outcome.requirements = vec![(self.parts[0].0, vec![failed])];
@@ -484,13 +488,12 @@ impl Joining<'_> {
         let [(id, first), (other, second)] = self.parts;
         let [source_end, end] = self.ends;
         let asked = self.values.choice(&CONTINUITY, &CONTINUITIES);
-        let continuity = asked.unwrap_or_else(|| {
-            let second = self.second();
-            let [left, right] = self.in_order(&first.polygon, &second);
-            match Joint::between(left, right).angle <= CORNER {
-                true => Continuity::G1,
-                false => Continuity::G0,
-            }
+        let turned = self.second();
+        let [left, right] = self.in_order(&first.polygon, &turned);
+        let joint = Joint::between(left, right);
+        let continuity = asked.unwrap_or(match joint.angle <= CORNER {
+            true => Continuity::G1,
+            false => Continuity::G0,
         });
         let edit = Edit::SetMatch(EndMatch {
             curve: other,
@@ -523,11 +526,20 @@ impl Joining<'_> {
             moved,
         ));
         outcome.remarks = dropped;
-        outcome.remarks.push(format!(
+        let told = format!(
             "Both stay curves; the second follows the first up to {} and moves by at most {}",
             continuity.name(),
             significant(moved, 3)
-        ));
+        );
+        let size = BezierPolygon::from_float(&second.polygon).size();
+        if moved > FAR * size && moved > FARTHER * joint.distance {
+            let share = significant(100.0 * moved / size, 2);
+            outcome.warnings.push(format!(
+                "{told}, {share} % of its size: chain up to less, or merge"
+            ));
+        } else {
+            outcome.remarks.push(told);
+        }
         Ok(outcome)
     }
 
@@ -563,6 +575,15 @@ impl Joining<'_> {
         outcome.renumbered = true;
         outcome.remarks.extend(dropped);
         Ok(())
+    }
+}
+
+/// The failure of a merge: one that ends because its time is over has found nothing.
+pub(super) fn merge_error(error: MergeError, progress: &Progress) -> OperationError {
+    match error {
+        MergeError::Cancelled if progress.is_late() => MergeError::NotFound.into(),
+        MergeError::Cancelled => OperationError::Cancelled,
+        error => error.into(),
     }
 }
 

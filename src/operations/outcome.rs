@@ -36,6 +36,8 @@ pub struct Outcome {
     pub figures: Vec<Figure>,
     /// Where the curve stands for another one: the levels of both.
     pub equivalence: Option<Vec<LevelComparison>>,
+    /// What the user may not want: sentences without a full stop at the end.
+    pub warnings: Vec<String>,
     /// What else is to say: sentences without a full stop at the end.
     pub remarks: Vec<String>,
     /// What to draw on the canvas.

@@ -41,6 +41,8 @@ pub struct Report {
     pub figures: Vec<Figure>,
     /// Where the curve stands for another one: the levels of both.
     pub equivalence: Option<Vec<LevelComparison>>,
+    /// What the user may not want: sentences without a full stop at the end.
+    pub warnings: Vec<String>,
     /// What else is to say: sentences without a full stop at the end.
     pub remarks: Vec<String>,
     /// Proved features and harmony before and afterwards; `None` until they are proved.
@@ -57,10 +59,10 @@ pub struct LargestMove {
 }
 
 impl Report {
-    /// Whether curvature extrema are added, so that the curve is less fair.
-    pub fn adds_extrema(&self) -> bool {
+    /// Whether the user may not want the result: there is a warning, or curvature extrema are added.
+    pub fn warns(&self) -> bool {
         let features = self.features.as_ref();
-        features.is_some_and(|it| it.remark_on_more().is_some())
+        !self.warnings.is_empty() || features.is_some_and(|it| it.remark_on_more().is_some())
     }
 
     /// Find one of the operation's own figures.
@@ -118,6 +120,7 @@ impl Report {
             largest_move: largest_move(input, outcome),
             figures: outcome.figures.clone(),
             equivalence: outcome.equivalence.clone(),
+            warnings: outcome.warnings.clone(),
             remarks: outcome.remarks.clone(),
             features: None,
         }
@@ -133,7 +136,7 @@ impl Report {
     ) -> Option<Self> {
         let features = FeatureComparison::prove(input, outcome, progress)?;
         let mut report = Self::new(operation, input, outcome);
-        report.remarks.extend(features.remark_on_more());
+        report.warnings.extend(features.remark_on_more());
         report.features = Some(features);
         Some(report)
     }

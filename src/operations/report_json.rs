@@ -59,7 +59,8 @@ impl Serialize for Report {
             let levels: Vec<_> = levels.iter().map(level).collect();
             map.serialize_entry("equivalence", &levels)?;
         }
-        map.serialize_entry("remarks", &self.remarks)?;
+        let remarks: Vec<&String> = self.warnings.iter().chain(&self.remarks).collect();
+        map.serialize_entry("remarks", &remarks)?;
         map.end()
     }
 }

@@ -55,7 +55,7 @@ impl Report {
         if !parts.is_empty() {
             text += &format!(": {}", parts.join("; "));
         }
-        for remark in &self.remarks {
+        for remark in self.warnings.iter().chain(&self.remarks) {
             text += &format!(". {remark}");
         }
         text

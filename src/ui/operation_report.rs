@@ -63,6 +63,9 @@ impl ReportView {
                 self.features.show(ui, in_progress);
             }
         });
+        for warning in &report.warnings {
+            widgets::warning(ui, warning);
+        }
         for remark in &report.remarks {
             widgets::note(ui, remark);
         }

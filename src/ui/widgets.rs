@@ -150,6 +150,19 @@ pub fn overlay<R>(
     area.show(context, contents)
 }
 
+/// Find where overlays were shown in the last frame.
+pub fn overlays(context: &Context) -> Vec<Rect> {
+    context.memory(|memory| {
+        let areas = memory.areas();
+        let layers = memory.layer_ids();
+        let shown =
+            layers.filter(|layer| layer.order == Order::Middle && areas.visible_last_frame(layer));
+        shown
+            .filter_map(|layer| memory.area_rect(layer.id))
+            .collect()
+    })
+}
+
 /// Show a list that opens, by its name for screen readers; returns another value that is chosen in it, or by the arrow
 /// keys up and down while it has the keyboard.
 pub fn drop_down<T: PartialEq>(
@@ -281,6 +294,12 @@ pub fn caption(ui: &mut Ui, text: &str) -> Response {
 pub fn note(ui: &mut Ui, text: &str) -> Response {
     let tokens = Tokens::of(ui);
     ui.add(egui::Label::new(RichText::new(text).color(tokens.faint_text)).wrap())
+}
+
+/// A line of text that wraps, in the colour of warnings: what the user may not want.
+pub fn warning(ui: &mut Ui, text: &str) -> Response {
+    let tokens = Tokens::of(ui);
+    ui.add(egui::Label::new(RichText::new(text).color(tokens.warning)).wrap())
 }
 
 /// Show contents in all the room that there is: they neither widen nor narrow the panel around them.

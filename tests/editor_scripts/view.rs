@@ -205,6 +205,46 @@ fn fitting_makes_the_comb_legible_and_shows_it() {
 }
 
 #[test]
+fn another_active_curve_gets_a_legible_comb_and_its_own_view() {
+    let polygon = Script::example("arc").polygon();
+    let aside = |scale: f64| {
+        let vertices = polygon.vertices().iter();
+        let moved = vertices.map(|it| (scale * it.x + 3.0 * polygon.size(), scale * it.y));
+        let moved: Vec<(f64, f64)> = moved.collect();
+        FloatPolygon::planar(polygon.degree(), &moved).expect("a polygon")
+    };
+    let [alike, small] = [1.1, 1e-3].map(aside);
+    let [arc, alike, small] = [("arc", polygon.clone()), ("alike", alike), ("small", small)]
+        .map(|(name, polygon)| Curve::new(name, polygon));
+    let mut editor = Editor::with_document(Document::from_curves([arc, alike, small]));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
+    let ids: Vec<_> = editor.document().ids().collect();
+    editor.activate(ids[0]);
+    editor.refresh();
+    let comb = editor.view().comb();
+    // Combs that can be read keep one scale, so that they can be compared.
+    editor.activate(ids[1]);
+    editor.refresh();
+    assert_eq!(editor.view().comb(), comb);
+    editor.activate(ids[2]);
+    editor.refresh();
+    assert!(editor.view().comb().scale < 1e-3 * comb.scale);
+    let seen = |editor: &Editor, id| {
+        let curve = editor.document().curve(id).expect("a curve");
+        let view = *editor.view().viewport();
+        let ends = [0.0, curve.polygon.segments() as f64].map(|u| curve.polygon.point(u));
+        let [from, to] = ends.map(|it| view.to_screen(it.truncate()));
+        from.distance(to) / view.size.y
+    };
+    assert!(seen(&editor, ids[2]) < 0.01);
+    editor.execute(Command::Fit).expect("a view");
+    assert!(seen(&editor, ids[2]) > 0.2);
+    assert!(seen(&editor, ids[0]) > 10.0);
+    editor.execute(Command::FitAll).expect("a view");
+    assert!(seen(&editor, ids[0]) < 1.0);
+}
+
+#[test]
 fn no_document_inherits_the_comb_of_another() {
     let fresh = |name| Script::example(name).editor.view().comb();
     let mut script = Script::example("arc");

@@ -160,11 +160,11 @@ fn a_correction_that_changes_the_whole_curve_says_what_keeps_it() {
     let told = |target: EndTarget, given: &[(&str, Value)]| {
         let runner = Runner::of(wave()).with_target(End::Finish, target);
         let outcome = runner.run("correct-ends", given).expect("an outcome");
-        outcome.remarks.join("\n")
+        outcome.warnings.join("\n")
     };
     assert_eq!(told(up, &[]), "");
     let vertices = ("order", Value::Choice(1));
-    for (remarks, begin) in [
+    for (warnings, begin) in [
         (
             told(up, &[locked.clone(), vertices.clone()]),
             "The curve moves by up to ",
@@ -173,12 +173,16 @@ fn a_correction_that_changes_the_whole_curve_says_what_keeps_it() {
             told(over, std::slice::from_ref(&vertices)),
             "The curve turns by -189° in all, before by ",
         ),
+        (
+            told(over, std::slice::from_ref(&vertices)),
+            "The target direction turns the end by 1",
+        ),
     ] {
-        let mut lines = remarks.lines();
-        assert!(lines.any(|line| line.starts_with(begin)), "{remarks}");
+        let mut lines = warnings.lines();
+        assert!(lines.any(|line| line.starts_with(begin)), "{warnings}");
         assert!(
-            remarks.contains("“Also hold vertices” (--locked)"),
-            "{remarks}"
+            warnings.contains("“Also hold vertices” (--locked)"),
+            "{warnings}"
         );
     }
 }
@@ -245,7 +249,10 @@ fn a_target_outside_its_plane_leads_a_planar_curve_into_space() {
     let (outcome, curves) = runner.done("correct-ends", &[]);
     assert!(!curves[0].polygon.is_planar());
     let remark = "A target lies outside the plane z = 0: the curve becomes a curve in space";
-    assert!(outcome.remarks.iter().any(|it| it == remark), "{outcome:?}");
+    assert!(
+        outcome.warnings.iter().any(|it| it == remark),
+        "{outcome:?}"
+    );
 }
 
 #[test]

@@ -220,8 +220,8 @@ fn what_the_rest_of_the_curve_gains_is_told() {
             ]
         });
         let gains = counts[1][0] > counts[0][0] || counts[1][1] > counts[0][1];
-        let mut remarks = outcome.remarks.iter();
-        let says = remarks.any(|remark| remark.starts_with("The rest of the curve gains"));
+        let mut warnings = outcome.warnings.iter();
+        let says = warnings.any(|it| it.starts_with("The rest of the curve gains"));
         assert_eq!(says, gains, "keep {keep}: {counts:?}");
         told += usize::from(says);
     }

@@ -46,7 +46,7 @@ pub enum Command {
     ToggleVisible,
     /// Lock or unlock the active curve.
     ToggleLocked,
-    /// Fit the selection, or everything.
+    /// Fit the selected vertices, or the active curve.
     Fit,
     /// Fit everything.
     FitAll,
@@ -251,7 +251,9 @@ impl Command {
             }
             Self::ToggleVisible => "Show or hide the active curve",
             Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
-            Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",
+            Self::Fit => {
+                "Show the selected vertices, or the active curve if fewer than two are selected"
+            }
             Self::FitAll => "Show everything",
             Self::ZoomIn => "Enlarge the view",
             Self::ZoomOut => "Show more of the model",

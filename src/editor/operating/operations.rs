@@ -529,7 +529,7 @@ impl Operating<'_> {
     fn reply(&self) -> Reply {
         match self.operations.operation.as_ref().and_then(|it| it.run()) {
             Some(Ok(run)) if run.succeeds() => Ok(Note {
-                warns: run.report.adds_extrema(),
+                warns: run.report.warns(),
                 ..Note::done(run.report.summary())
             }),
             Some(Ok(run)) => Err(Refusal(run.report.summary())),
@@ -610,7 +610,7 @@ impl Operating<'_> {
         let look = match self.sees_points() {
             false if is_first => Look::New(made),
             true if is_alone && (is_first || is_first_result) => Look::ResetComb,
-            _ => return,
+            _ => Look::SuitComb,
         };
         let layers = self.hand.layers(self.view.layers);
         let shown = self.hand.shown(self.workspace, layers);

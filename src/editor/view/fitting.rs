@@ -23,7 +23,8 @@ const FAR_POLYGON: f64 = 8.0;
 /// A curve smaller than this share of the view's smaller side is a speck.
 const SPECK: f64 = 0.15;
 
-/// The shortest and the longest tooth of a comb that stays when another curve becomes active, in units of its box.
+/// The shortest and the longest tooth of a comb that stays when another curve becomes active or takes its place, in units of
+/// its box.
 const LEGIBLE: std::ops::RangeInclusive<f64> = 0.03..=2.0;
 
 /// How far beside curve and polygon a fitted view follows the comb, in units of their extent.
@@ -86,17 +87,31 @@ impl View {
         }
         let comb = self.comb;
         self.reset_comb(shown);
-        let bounds = self.bounds_of_all(new.iter().copied(), shown);
+        let curves = new.iter().filter_map(|id| self.outlines.get(*id));
+        let alone = curves.map(|it| it.curve.bounds());
+        let alone = alone.fold(Bounds::EMPTY, Bounds::united);
         let seen = self.viewport.view_box();
-        let (extent, side) = (bounds.high - bounds.low, seen.high - seen.low);
+        let (extent, side) = (alone.high - alone.low, seen.high - seen.low);
         if extent.max_element() < SPECK * side.min_element() {
+            let bounds = self.bounds_of_all(new.iter().copied(), shown);
             self.fit_bounds(&bounds, shown.document());
-        } else if self
-            .whole_comb_scale(shown)
-            .is_none_or(|whole| LEGIBLE.contains(&(comb.scale / whole)))
-        {
+        } else if self.is_legible(comb, shown) {
             self.comb = comb;
         }
+    }
+
+    /// Reset the comb where its longest tooth on the active curve is too short or too long to be read.
+    pub(super) fn suit_comb(&mut self, shown: Shown<'_>) {
+        self.analyse(shown.document());
+        if !self.is_legible(self.comb, shown) {
+            self.reset_comb(shown);
+        }
+    }
+
+    /// Whether the longest tooth of a comb on the active curve can be read; so can one without teeth.
+    fn is_legible(&self, comb: CombSettings, shown: Shown<'_>) -> bool {
+        let whole = self.whole_comb_scale(shown);
+        whole.is_none_or(|whole| LEGIBLE.contains(&(comb.scale / whole)))
     }
 
     /// Give the comb a scale at which its longest tooth is a good part of the active curve's box, and so many
@@ -130,12 +145,17 @@ impl View {
         Some(scale).filter(|scale| *scale > 0.0 && scale.is_finite())
     }
 
+    /// Fit the selected vertices, or the active curve where there are fewer than two: one has no extent.
     pub(super) fn fit_selection(&mut self, shown: Shown<'_>) {
-        // A single vertex has no extent that could be fitted.
-        if shown.selection.vertices().len() < 2 {
-            return self.fit_all(shown);
-        }
         self.reset_comb(shown);
+        if shown.selection.vertices().len() < 2 {
+            let active = shown.active().into_iter();
+            let bounds = self.bounds_of_all(active, shown);
+            return match bounds.is_empty() {
+                true => self.show_all(shown),
+                false => self.fit_bounds(&bounds, shown.document()),
+            };
+        }
         let mut bounds = Bounds::EMPTY;
         for (curve, index) in shown.selection.vertices() {
             if let Some(curve) = shown.document().curve(curve) {

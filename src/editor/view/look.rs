@@ -29,7 +29,7 @@ pub enum Look {
     Begin(Vec<DVec3>),
     /// Zoom out until a point is in sight.
     Include(DVec3),
-    /// Fit the selected vertices, or everything where fewer than two are selected.
+    /// Fit the selected vertices, or the active curve where fewer than two are selected.
     Selection,
     /// Fit everything where one of these new curves is out of sight; fit them alone where they would be a
     /// speck.
@@ -38,6 +38,8 @@ pub enum Look {
     Comb(CombSettings),
     /// Give the comb a legible scale.
     ResetComb,
+    /// Give the comb a legible scale unless it has one.
+    SuitComb,
     /// Show the surroundings of a parameter of the active curve or reference, and the layer of its features.
     Around(f64),
     /// Choose a feature of the active curve by the middle of its interval: the canvas shows the shortest
@@ -63,6 +65,7 @@ impl View {
             Look::New(curves) => self.bring_into_sight(&curves, shown),
             Look::Comb(comb) => self.set_comb(comb),
             Look::ResetComb => self.reset_comb(shown),
+            Look::SuitComb => self.suit_comb(shown),
             Look::Around(u) => self.look_around(u, shown),
             Look::Feature(u) => self.choose_feature(u, shown),
             Look::From(orientation) => self.look_from(orientation, shown),

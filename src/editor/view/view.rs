@@ -48,6 +48,8 @@ pub struct View {
     /// How curvatures are written.
     pub curvature_display: CurvatureDisplay,
     pub(in crate::editor) comb: CombSettings,
+    /// The curve or reference that the comb was last made to suit.
+    combed: Option<CurveId>,
     /// Whether the evolute of the active curve is drawn where it would cover much of the view.
     pub evolute: EvoluteCrowd,
     /// How distances of points that are fitted are drawn.
@@ -131,6 +133,11 @@ impl View {
     /// Update analyses, features, harmony and distances.
     pub(in crate::editor) fn update(&mut self, shown: Shown<'_>, patience: &mut Patience) {
         self.analyse(shown.document());
+        // A drag that Esc takes back leaves the comb as it was.
+        if self.combed != shown.active() && !shown.is_holding {
+            self.combed = shown.active();
+            self.suit_comb(shown);
+        }
         if let Some(active) = shown.active() {
             self.proving.prove(active, &mut self.analyses, patience);
             self.list_features(active, shown);
