@@ -1,7 +1,7 @@
 //! Several curves at once: whose is what is hovered, copied, cut, exported and named.
 
-use batten::document::{Curve, CurveId, Edit};
-use batten::editor::{Command, HoverScene, Key, Modifiers, ToolKind};
+use batten::document::{Curve, CurveId, Document, Edit};
+use batten::editor::{Command, Editor, HoverScene, Key, Look, Modifiers, ToolKind};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{ClampedPolygon, End, FloatPolygon, PolygonKind};
 use batten::io::disk;
@@ -401,4 +401,58 @@ fn select_all_says_that_the_active_curve_is_hidden_and_takes_no_other() {
     assert_eq!(script.curve(), arc);
     assert!(script.editor.hand().selection().is_empty());
     assert!(script.message().contains("hidden"), "{}", script.message());
+}
+
+#[test]
+fn the_active_curve_is_dragged_before_others_that_run_along_it() {
+    // Many vertices, which are not drawn, over few of another curve.
+    let wave = |count: usize| {
+        let vertices = (0..count).map(|index| {
+            let x = 10.0 * index as f64 / (count - 1) as f64;
+            DVec3::new(x, (0.9 * x).sin(), 0.0)
+        });
+        FloatPolygon::new(3, vertices.collect(), None, false).expect("a polygon")
+    };
+    let curves = [("few", wave(40)), ("many", wave(2000))];
+    let curves = curves.map(|(name, polygon)| Curve::new(name, polygon));
+    let mut editor = Editor::with_document(Document::from_curves(curves));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
+    let ids: Vec<_> = editor.document().ids().collect();
+    let few = editor
+        .document()
+        .curve(ids[0])
+        .expect("a curve")
+        .polygon
+        .clone();
+    let at = editor
+        .view()
+        .viewport()
+        .to_screen(few.vertex(20).truncate());
+    let mut script = Script { editor };
+    for (active, other) in [(ids[1], ids[0]), (ids[0], ids[1])] {
+        script.editor.activate(active);
+        script.editor.refresh();
+        script.drag(at, at + DVec2::new(3.0, 20.0));
+        assert_eq!(script.editor.active(), Some(active));
+        let before = script.editor.workspace().history().undo_steps();
+        assert_eq!(before, 1);
+        let of = |id| {
+            script
+                .editor
+                .document()
+                .curve(id)
+                .expect("a curve")
+                .polygon
+                .clone()
+        };
+        assert_eq!(
+            of(other),
+            [wave(40), wave(2000)][usize::from(other == ids[1])]
+        );
+        assert_ne!(
+            of(active),
+            [wave(40), wave(2000)][usize::from(active == ids[1])]
+        );
+        script.command(Command::Undo);
+    }
 }

@@ -20,7 +20,10 @@ const BESIDE: f64 = 2.0 * REACH;
 /// Nearer to a leg or to the curve than this, in screen points, a press is not meant for the tip of a tooth.
 const APART: f64 = 12.0;
 
-/// How much farther than a curve a reference counts, in screen points.
+/// Nearer to the active curve than this, in screen points, a press is meant for it, and for no vertex of another one.
+const UNDER: f64 = 0.5 * REACH;
+
+/// How much farther than the active curve another one counts, and a reference than that, in screen points.
 const BEHIND: f64 = 2.0;
 
 /// The smallest length of a comb's tooth, in screen points, that can be dragged by its tip.
@@ -51,20 +54,36 @@ pub struct LegHit {
 }
 
 impl<'a> Sight<'a> {
-    /// Find the vertex under a place; of several that overlap, the one that Tab has chosen.
+    /// Find the vertex under a place; of several that overlap, the one that Tab has chosen. Those of the active curve
+    /// come first, and where it runs under the pointer itself, vertices of others come after it.
     pub(in crate::editor) fn vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
         if !self.shown.layers.shows(Layer::Float) {
             return None;
         }
         let mut found: Vec<(f64, VertexId)> = self.vertices_within(place, REACH).collect();
         let is_other = |id: &VertexId| self.active() != Some(id.0);
-        // The nearest wins; of equals, the active curve's, then the one drawn on top.
+        // The active curve's win, of these the nearest, of equals the one drawn on top.
         found.sort_by(|(a, one), (b, other)| {
             let by_activity = is_other(one).cmp(&is_other(other));
-            a.total_cmp(b).then(by_activity).then(other.cmp(one))
+            by_activity.then(a.total_cmp(b)).then(other.cmp(one))
         });
-        let chosen = self.shown.cycle.checked_rem(found.len())?;
-        found.get(chosen).map(|(_, id)| *id)
+        let has_own = found.first().is_some_and(|(_, id)| !is_other(id));
+        let behind_curve = usize::from(!has_own && self.is_active_under(place));
+        let chosen = self.shown.cycle % (found.len() + behind_curve).max(1);
+        found
+            .get(chosen.checked_sub(behind_curve)?)
+            .map(|(_, id)| *id)
+    }
+
+    /// Whether the active curve runs under a place, and can be changed.
+    fn is_active_under(&self, place: DVec2) -> bool {
+        let id = self.shown_active();
+        let id = id.filter(|_| self.shown.layers.shows(Layer::Curve));
+        id.is_some_and(|id| {
+            let curve = self.document().curve(id);
+            let is_editable = curve.is_some_and(|curve| curve.check_editable().is_ok());
+            is_editable && self.hit_within(id, place, UNDER).is_some()
+        })
     }
 
     /// Whether a place is near a visible vertex of either S-polygon.
@@ -145,9 +164,15 @@ impl<'a> Sight<'a> {
     /// a reference it is the curve that is found.
     pub(in crate::editor) fn curve(&self, place: DVec2) -> Option<CurveHit> {
         let curves = self.shown.layers.shows(Layer::Curve).then(|| self.curves());
-        let curves = curves.into_iter().flatten().map(|(id, _)| (id, 0.0));
         let behind = BEHIND * self.viewport().pixel();
-        let references = self.shown_references().map(|id| (id, behind));
+        let after_active = |id: CurveId| match self.active() == Some(id) {
+            true => 0.0,
+            false => behind,
+        };
+        let curves = curves.into_iter().flatten();
+        let curves = curves.map(|(id, _)| (id, after_active(id)));
+        let references = self.shown_references();
+        let references = references.map(|id| (id, behind + after_active(id)));
         let hits = curves.chain(references).filter_map(|(id, behind)| {
             let (distance, hit) = self.hit_on(id, place)?;
             Some((distance + behind, hit))
