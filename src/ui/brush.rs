@@ -19,6 +19,8 @@ pub struct Brush<'a> {
     pub rect: Rect,
     /// The colours.
     pub tokens: &'a Tokens,
+    /// Where panels lie over the canvas.
+    pub overlays: Vec<Rect>,
     /// Where there are texts that no other may lie over.
     pub texts: RefCell<Vec<Rect>>,
 }

@@ -13,7 +13,7 @@ use super::brush::Brush;
 use super::chains::Screen;
 use super::keyboard::Steering;
 use super::theme::Tokens;
-use super::{gizmo, grid, keyboard, painting};
+use super::{gizmo, grid, keyboard, painting, widgets};
 use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Look, Modifiers};
 
 /// Points of the wheel that scale by the factor e.
@@ -353,6 +353,7 @@ impl Canvas {
             screen: Screen::new(&viewport, rect),
             rect,
             tokens,
+            overlays: widgets::overlays(ui.ctx()),
             texts: RefCell::default(),
         };
         if has_grid {

@@ -1,10 +1,13 @@
 //! The entry field on the canvas, for a point, an angle or a factor of the tool in hand, and the
 //! figures of the leg in progress.
 
-use eframe::egui::{Align2, Context, Event, Frame, Id, Key, Rect, Stroke, TextEdit, Ui, vec2};
+use eframe::egui::{
+    Align2, Context, Event, Frame, Id, Key, Rect, Stroke, TextEdit, Ui, Vec2, vec2,
+};
 use lucide_icons::Icon;
 
 use super::canvas::{self, Canvas};
+use super::chains::Screen;
 use super::draft::remark_ui;
 use super::keyboard::{self, Typing};
 use super::number_field::NumberField;
@@ -27,6 +30,9 @@ const CAPTION: f32 = 48.0;
 const FIGURE: f32 = 76.0;
 const SO_FAR: f32 = 56.0;
 
+/// The panel gives way to points so near, in points of the screen: the next one is often set beside the last.
+const AROUND: f32 = 80.0;
+
 /// The field that digits typed on the canvas go to.
 #[derive(Debug, Default)]
 pub struct CanvasEntry {
@@ -35,6 +41,8 @@ pub struct CanvasEntry {
     /// Whether it had the keyboard in the last frame.
     is_typed: bool,
     rect: Option<Rect>,
+    /// The size of the panel in the last frame.
+    size: Vec2,
 }
 
 /// The identity of the field.
@@ -60,15 +68,23 @@ impl CanvasEntry {
         }
     }
 
-    /// Show the field, with the figures of the leg that is drawn, at the canvas's lower edge. Returns
-    /// where.
+    /// Show the field, with the figures of the leg that is drawn, at the canvas's lower edge, or the upper one where
+    /// it would lie over the last point. Returns where.
     pub fn show(&mut self, context: &Context, canvas: Rect, editor: &mut Editor) -> Option<Rect> {
         let Some(entry) = editor.hand().entry(editor.view().viewport()) else {
             *self = Self::default();
             return None;
         };
-        let at = canvas.center_bottom() - vec2(0.0, 6.0 * STEP);
-        let place = (Align2::CENTER_BOTTOM, at);
+        let low = canvas.center_bottom() - vec2(0.0, 6.0 * STEP);
+        let high = canvas.center_top() + vec2(0.0, 14.0 * STEP);
+        let below = Align2::CENTER_BOTTOM.anchor_size(low, self.size);
+        let last = editor.hand().last_drawn();
+        let viewport = editor.view().viewport();
+        let last = last.map(|last| Screen::new(viewport, canvas).pos(viewport.flatten(last)));
+        let place = match last.is_some_and(|last| below.expand(AROUND).contains(last)) {
+            true => (Align2::CENTER_TOP, high),
+            false => (Align2::CENTER_BOTTOM, low),
+        };
         let shown = widgets::overlay(context, "drawing", place, |ui| {
             let outline = Stroke::new(1.0, Tokens::of(ui).outline);
             let frame = Frame::popup(ui.style()).stroke(outline);
@@ -84,6 +100,7 @@ impl CanvasEntry {
                 });
             });
         });
+        self.size = shown.response.rect.size();
         Some(shown.response.rect)
     }
 

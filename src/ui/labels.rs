@@ -1,5 +1,7 @@
 //! Texts on the canvas: legible over anything, and never outside.
 
+use std::f32::consts::PI;
+
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, vec2};
 
 use super::brush::Brush;
@@ -38,11 +40,12 @@ pub fn paint(
     brush.painter.galley(rect.min, galley, colour);
 }
 
-/// Show some lines in a box beside a point: within the canvas, never over the point, and over as few of some
-/// `others` as can be.
+/// Show some lines in a box beside a point: within the canvas, never over the point, under no overlay where that can
+/// be, and over as few of some `others` as can be.
 pub fn tooltip(brush: &Brush<'_>, others: &[Pos2], point: Pos2, text: &str) {
     let canvas = brush.rect.shrink(STEP);
-    lines_in_box(brush, text, |size| beside(canvas, point, size, others));
+    let avoided = Avoided::of(brush, others);
+    lines_in_box(brush, text, |size| beside(canvas, point, size, &avoided));
 }
 
 /// Show some lines in a box, which a function places by its size.
@@ -57,10 +60,31 @@ fn lines_in_box(brush: &Brush<'_>, text: &str, place: impl Fn(Vec2) -> Rect) {
     painter.galley(rect.min + padding, galley, tokens.text);
 }
 
-/// How many of some points a box covers, or nearly so.
-fn covered(rect: &Rect, points: &[Pos2]) -> usize {
-    let near = rect.expand(STEP);
-    points.iter().filter(|point| near.contains(**point)).count()
+/// What a text should not lie over.
+struct Avoided<'a> {
+    points: &'a [Pos2],
+    /// Panels, which would hide it.
+    overlays: &'a [Rect],
+}
+
+impl<'a> Avoided<'a> {
+    fn of(brush: &'a Brush<'_>, points: &'a [Pos2]) -> Self {
+        Self {
+            points,
+            overlays: &brush.overlays,
+        }
+    }
+
+    /// How many panels hide a box, then how many points it covers, or nearly so.
+    fn cost(&self, rect: &Rect) -> (usize, usize) {
+        let near = rect.expand(STEP);
+        let hides = |overlay: &&Rect| overlay.intersects(*rect);
+        let is_covered = |point: &&Pos2| near.contains(**point);
+        (
+            self.overlays.iter().filter(hides).count(),
+            self.points.iter().filter(is_covered).count(),
+        )
+    }
 }
 
 /// Name a point in small type below it.
@@ -83,14 +107,20 @@ pub fn name(brush: &Brush<'_>, point: Pos2, text: &str) {
 /// few of some `others` as can be.
 pub fn behind(brush: &Brush<'_>, others: &[Pos2], moved: (Pos2, Vec2), text: &str) {
     let canvas = brush.rect.shrink(STEP);
+    let avoided = Avoided::of(brush, others);
     lines_in_box(brush, text, |size| {
-        place_behind(canvas, moved, size, others)
+        place_behind(canvas, moved, size, &avoided)
     });
 }
 
 /// Find a box of some size behind a point that moves along `way`, where it covers as few of some `others` as can be;
 /// near the canvas's edge on one of its other sides, where there is room.
-fn place_behind(canvas: Rect, (point, way): (Pos2, Vec2), size: Vec2, others: &[Pos2]) -> Rect {
+fn place_behind(
+    canvas: Rect,
+    (point, way): (Pos2, Vec2),
+    size: Vec2,
+    avoided: &Avoided<'_>,
+) -> Rect {
     let back = match way == Vec2::ZERO {
         true => vec2(0.0, -1.0),
         false => -way.normalized(),
@@ -100,14 +130,17 @@ fn place_behind(canvas: Rect, (point, way): (Pos2, Vec2), size: Vec2, others: &[
     let is_clear = |rect: &Rect| !rect.expand(0.5 * CLEARANCE).contains(point);
     let best = |sides: &[Vec2]| {
         let boxes = sides.iter().map(|side| boxed(*side)).filter(is_clear);
-        boxes.min_by_key(|rect| covered(rect, others))
+        boxes.min_by_key(|rect| avoided.cost(rect))
     };
     let halfway = [back + left, back + right].map(Vec2::normalized);
     let behind = best(&[back, halfway[0], halfway[1]]);
-    let behind = behind.filter(|rect| covered(rect, others) == 0);
-    let around = || best(&[back, halfway[0], halfway[1], left, right]);
-    let ahead = || best(&[-back]);
-    behind.or_else(around).or_else(ahead).unwrap_or(boxed(back))
+    let behind = behind.filter(|rect| avoided.cost(rect) == (0, 0));
+    let around = best(&[back, halfway[0], halfway[1], left, right]);
+    let around = around.filter(|rect| avoided.cost(rect).0 == 0);
+    let turned = (0_u8..12).map(|twelfth| back.angle() + f32::from(twelfth) * PI / 6.0);
+    let anywhere: Vec<Vec2> = turned.map(Vec2::angled).collect();
+    let anywhere = || best(&anywhere);
+    behind.or(around).or_else(anywhere).unwrap_or(boxed(back))
 }
 
 /// Find a box of some size on one side of a point, clear of it by some distance.
@@ -124,23 +157,35 @@ pub fn moved_into(canvas: Rect, rect: Rect) -> Rect {
 }
 
 /// Find a box of some size beside a point: right of it and above if there is room, otherwise on
-/// another side, or where it covers the fewest of some `others`.
-fn beside(canvas: Rect, point: Pos2, size: Vec2, others: &[Pos2]) -> Rect {
+/// another side, or where it costs least.
+fn beside(canvas: Rect, point: Pos2, size: Vec2, avoided: &Avoided<'_>) -> Rect {
     let right = point.x + CLEARANCE;
     let left = point.x - CLEARANCE - size.x;
     let above = point.y - CLEARANCE - size.y;
     let below = point.y + CLEARANCE;
+    let boxed = |x: f32, y: f32| Rect::from_min_size(Pos2::new(x, y), size);
     let corners = [(right, above), (left, above), (right, below), (left, below)];
-    let boxes = corners.map(|(x, y)| Rect::from_min_size(Pos2::new(x, y), size));
-    let free = boxes.into_iter().filter(|rect| canvas.contains_rect(*rect));
-    if let Some(best) = free.min_by_key(|rect| covered(rect, others)) {
+    let is_free = |rect: &Rect| canvas.contains_rect(*rect);
+    let free = corners
+        .map(|(x, y)| boxed(x, y))
+        .into_iter()
+        .filter(is_free);
+    let best = free.min_by_key(|rect| avoided.cost(rect));
+    if let Some(best) = best.filter(|rect| avoided.cost(rect).0 == 0) {
         return best;
     }
-    // Near a short edge: keep to a side of the point and slide along it.
+    // Near a short edge or an overlay: keep to a side of the point and slide along it.
     let fits = right + size.x <= canvas.right();
     let x = if fits { right } else { left };
     let y = above.clamp(canvas.top(), (canvas.bottom() - size.y).max(canvas.top()));
-    Rect::from_min_size(Pos2::new(x.max(canvas.left()), y), size)
+    let slid = boxed(x.max(canvas.left()), y);
+    let overlays = avoided.overlays.iter();
+    let beyond = overlays.flat_map(|it| [it.bottom() + STEP, it.top() - STEP - size.y]);
+    let beyond = beyond.flat_map(|y| [boxed(right, y), boxed(left, y)]);
+    let beyond = beyond.filter(is_free);
+    let all = best.into_iter().chain([slid]).chain(beyond);
+    // The first of those that cost as much: where there is no overlay, the box that slid least.
+    all.min_by_key(|rect| avoided.cost(rect).0).unwrap_or(slid)
 }
 
 #[cfg(test)]
@@ -149,6 +194,11 @@ mod tests {
 
     use super::*;
 
+    const NOTHING: Avoided = Avoided {
+        points: &[],
+        overlays: &[],
+    };
+
     #[test]
     fn a_readout_stands_where_the_drag_comes_from() {
         let canvas = Rect::from_min_size(pos2(0.0, 0.0), vec2(600.0, 400.0));
@@ -156,12 +206,12 @@ mod tests {
         for step in 0..24 {
             let way = Vec2::angled(step as f32);
             let point = pos2(300.0, 200.0);
-            let rect = place_behind(canvas, (point, way), size, &[]);
+            let rect = place_behind(canvas, (point, way), size, &NOTHING);
             assert!((rect.center() - point).dot(way) < 0.0, "{way:?}: {rect:?}");
             let ahead = (0..200).map(|far| point + way * far as f32);
             assert!(ahead.into_iter().all(|place| !rect.contains(place)));
             for corner in [pos2(3.0, 2.0), pos2(598.0, 3.0), pos2(2.0, 397.0)] {
-                let rect = place_behind(canvas, (corner, way), size, &[]);
+                let rect = place_behind(canvas, (corner, way), size, &NOTHING);
                 assert!(canvas.contains_rect(rect) && !rect.contains(corner));
             }
         }
@@ -175,22 +225,56 @@ mod tests {
             let along = Vec2::angled(step as f32 * 0.13);
             let curve = (-300..=300).map(|far| point + along * far as f32);
             let curve: Vec<Pos2> = curve.collect();
+            let curve = Avoided {
+                points: &curve,
+                overlays: &[],
+            };
             // The point is dragged across the curve, to either side, or along it.
             for way in [along.rot90(), -along.rot90()] {
                 let rect = place_behind(canvas, (point, way), size, &curve);
-                assert_eq!(covered(&rect, &curve), 0, "{way:?}: {rect:?}");
+                assert_eq!(curve.cost(&rect), (0, 0), "{way:?}: {rect:?}");
                 assert!((rect.center() - point).dot(way) < 1.0);
             }
             let rect = place_behind(canvas, (point, along), size, &curve);
             assert!((rect.center() - point).dot(along) < 1.0);
-            let behind = covered(&outside(point, -along, size, CLEARANCE), &curve);
-            assert!(covered(&rect, &curve) < behind.max(1));
+            let behind = curve.cost(&outside(point, -along, size, CLEARANCE));
+            assert!(curve.cost(&rect) < behind.max((0, 1)));
         }
         let diagonal: Vec<Pos2> = (0..300)
             .map(|far| point + vec2(1.0, -1.0) * far as f32)
             .collect();
+        let diagonal = Avoided {
+            points: &diagonal,
+            overlays: &[],
+        };
         let rect = beside(canvas, point, size, &diagonal);
-        assert_eq!(covered(&rect, &diagonal), 0);
+        assert_eq!(diagonal.cost(&rect), (0, 0));
+    }
+
+    #[test]
+    fn no_overlay_hides_a_text() {
+        let canvas = Rect::from_min_size(pos2(0.0, 0.0), vec2(1000.0, 600.0));
+        let bar = Rect::from_min_size(pos2(8.0, 8.0), vec2(490.0, 32.0));
+        let panel = Rect::from_min_size(pos2(250.0, 500.0), vec2(500.0, 64.0));
+        let overlays = [bar, panel];
+        let avoided = Avoided {
+            points: &[],
+            overlays: &overlays,
+        };
+        let size = vec2(200.0, 60.0);
+        for x in 1..20 {
+            for y in 1..12 {
+                let point = pos2(50.0 * x as f32, 50.0 * y as f32);
+                let rect = beside(canvas, point, size, &avoided);
+                assert_eq!(avoided.cost(&rect).0, 0, "{point:?}: {rect:?}");
+                assert!(canvas.contains_rect(rect) && !rect.contains(point));
+                for step in 0..12 {
+                    let way = Vec2::angled(step as f32 * 0.52);
+                    let rect = place_behind(canvas, (point, way), size, &avoided);
+                    assert_eq!(avoided.cost(&rect).0, 0, "{point:?} {way:?}: {rect:?}");
+                }
+            }
+        }
     }
 
     #[test]
@@ -200,7 +284,7 @@ mod tests {
         for x in 0..=12 {
             for y in 0..=8 {
                 let point = canvas.min + vec2(50.0 * x as f32, 50.0 * y as f32);
-                let rect = beside(canvas, point, size, &[]);
+                let rect = beside(canvas, point, size, &NOTHING);
                 assert!(canvas.contains_rect(rect), "{point:?}: {rect:?}");
                 assert!(!rect.contains(point), "{point:?}: {rect:?}");
             }
