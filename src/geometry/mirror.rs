@@ -59,6 +59,20 @@ impl Mirror {
         }
     }
 
+    /// The distance of a point from the mirror plane, negative on one side; `None` for half a turn, which has none.
+    pub fn height(&self, point: DVec3) -> Option<f64> {
+        match self {
+            Self::Signs([true, false, false]) => Some(point.x),
+            Self::Signs([false, true, false]) => Some(point.y),
+            Self::Signs([false, false, true]) => Some(point.z),
+            Self::Signs(_) => None,
+            Self::Line { through, along } => {
+                let across = DVec3::new(-along.y, along.x, 0.0);
+                Some((point - *through).dot(across))
+            }
+        }
+    }
+
     /// Whether a left turn in the plane z = 0 becomes a right turn.
     pub fn turns_plane(&self) -> bool {
         match self {

@@ -55,6 +55,7 @@ mod sampled_cusps;
 mod sampler;
 mod segment_expansion;
 mod spacing;
+mod symmetry;
 mod tables;
 mod taylor_series;
 mod vector;
@@ -90,6 +91,6 @@ pub use sampler::{BATCH_ORDER, Batch, Sampler};
 pub use segment_expansion::SegmentExpansion;
 pub use spacing::Spacing;
 pub use wording::{
-    SMALL, coordinate, counted, figure, noun, panic_message, radius_of, rounded_up, significant,
-    to_resolution, without_negative_zero,
+    SMALL, coordinate, counted, degrees_text, figure, noun, panic_message, radius_of, rounded_up,
+    significant, to_resolution,
 };

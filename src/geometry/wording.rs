@@ -108,8 +108,13 @@ fn decimals(resolution: f64) -> usize {
     }
 }
 
+/// Write degrees with a fixed number of decimals.
+pub fn degrees_text(degrees: f64, decimals: usize) -> String {
+    without_negative_zero(format!("{degrees:.decimals$}")) + "°"
+}
+
 /// Take the sign from a zero.
-pub fn without_negative_zero(text: String) -> String {
+fn without_negative_zero(text: String) -> String {
     let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
     match text.strip_prefix('-') {
         Some(rest) if is_zero => rest.to_owned(),

@@ -27,21 +27,21 @@ const AXIS: Parameter = Parameter {
     },
 };
 
-const FROM: Parameter = Parameter {
+pub(super) const FROM: Parameter = Parameter {
     name: "from",
     label: "From",
     help: "A point of another mirror line",
     kind: Kind::list(2..=2, |_| "the axis counts"),
 };
 
-const TO: Parameter = Parameter {
+pub(super) const TO: Parameter = Parameter {
     name: "to",
     label: "To",
     help: "A second point of that line",
     kind: Kind::list(2..=2, |_| "the axis counts"),
 };
 
-const PLANE: Parameter = Parameter {
+pub(super) const PLANE: Parameter = Parameter {
     name: "plane",
     label: "Plane",
     help: "The mirror plane through the origin, in space",
@@ -88,7 +88,8 @@ const BY_PLANE: [Option<[bool; 3]>; 4] = [
     Some([true, false, false]),
 ];
 
-fn unused(values: &Values) -> &'static [&'static str] {
+/// A line or a plane takes the place of the axis.
+pub(super) fn unused(values: &Values) -> &'static [&'static str] {
     let has_line = [&FROM, &TO].iter().any(|it| !values.list(it).is_empty());
     match (values.choice(&PLANE, &BY_PLANE), has_line) {
         (Some(_), false) => &["axis"],
@@ -99,7 +100,7 @@ fn unused(values: &Values) -> &'static [&'static str] {
 
 fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
-    let mirror = mirror(values)?;
+    let mirror = plane_or_line(values, values.choice(&AXIS, &BY_AXIS))?;
     let image = image(curve, &mirror)?;
     let mut outcome = Outcome::unchanged(Deviation::Unmeasured);
     outcome.edits = match values.switch(&COPY) {
@@ -120,8 +121,11 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     Ok(outcome)
 }
 
-/// The map that the values name.
-fn mirror(values: &Values) -> Result<Mirror, OperationError> {
+/// The map by the plane or the line that the values name, or else by an axis.
+///
+/// # Errors
+/// [`OperationError`] if they contradict each other, or a line has no direction.
+pub(super) fn plane_or_line(values: &Values, by_axis: [bool; 3]) -> Result<Mirror, OperationError> {
     let plane = values.choice(&PLANE, &BY_PLANE);
     let [from, to] = [&FROM, &TO].map(|parameter| match *values.list(parameter) {
         [x, y] => Some(DVec3::new(x, y, 0.0)),
@@ -129,7 +133,7 @@ fn mirror(values: &Values) -> Result<Mirror, OperationError> {
     });
     let exclude = |first, second| Err(OperationError::Exclude { first, second });
     match (from, to, plane) {
-        (None, None, None) => Ok(Mirror::Signs(values.choice(&AXIS, &BY_AXIS))),
+        (None, None, None) => Ok(Mirror::Signs(by_axis)),
         (None, None, Some(signs)) => Ok(Mirror::Signs(signs)),
         (Some(_), _, Some(_)) => exclude(FROM.label, PLANE.label),
         (_, Some(_), Some(_)) => exclude(TO.label, PLANE.label),
@@ -172,7 +176,7 @@ fn image(curve: &Curve, mirror: &Mirror) -> Result<Curve, OperationError> {
 }
 
 /// Refuse a curve that follows another one: it would go back to it.
-fn check_free(input: &Operands, id: CurveId) -> Result<(), OperationError> {
+pub(super) fn check_free(input: &Operands, id: CurveId) -> Result<(), OperationError> {
     let document = input.document();
     let matched = End::BOTH
         .into_iter()

@@ -72,6 +72,7 @@ macro_rules! table {
 table! {
     reverse,
     mirror,
+    make_symmetric,
     reinterpret_degree,
     elevate_degree,
     reduce_degree,

@@ -65,7 +65,7 @@ impl Condition {
         set: impl Fn(f64) -> EndFitAction,
     ) -> Option<Event> {
         let shown = |value: f64| match quantity {
-            Quantity::Angle => format!("{value:.3}°"),
+            Quantity::Angle => figures::degrees_text(value, 3),
             _ => figures::significant(value, 4),
         };
         let row = widgets::wide_form_row(ui, self.name, CONDITION, |ui| {

@@ -1,14 +1,12 @@
 //! Numbers as the screen shows them.
 
 use crate::geometry::Range;
-pub use crate::geometry::{
-    SMALL, coordinate, radius_of, significant, to_resolution, without_negative_zero,
-};
+pub use crate::geometry::{SMALL, coordinate, degrees_text, radius_of, significant, to_resolution};
 
 /// Write an angle given in radians as degrees.
 pub fn degrees(radians: f64, decimals: usize) -> String {
     if radians.is_finite() {
-        without_negative_zero(format!("{:.decimals$}", radians.to_degrees())) + "°"
+        degrees_text(radians.to_degrees(), decimals)
     } else {
         "–".to_owned()
     }

@@ -21,3 +21,4 @@ mod random;
 mod reached;
 mod reports;
 mod runner;
+mod symmetry;

@@ -6,6 +6,7 @@ use crate::document::{Colour, CurveId};
 use crate::editor::view::end_marks::EndFitMarks;
 use crate::editor::view::feature_report::FeatureMark;
 use crate::editor::view::outline::append_gap;
+use crate::geometry::degrees_text;
 
 /// All that is on the canvas, from back to front. Chains are points in the model's plane; a NaN
 /// point ([`crate::editor::GAP`]) breaks them.
@@ -238,7 +239,7 @@ impl MeasuredFigure {
     /// Say the figure, with lengths as they are to be written.
     pub fn text(&self, length: impl Fn(f64) -> String) -> String {
         let value = |value: &f64| match self.is_angle {
-            true => format!("{value:.3}°"),
+            true => degrees_text(*value, 3),
             false => length(*value),
         };
         let values: Vec<String> = self.values.iter().map(value).collect();

@@ -79,6 +79,22 @@ pub struct Merged {
     pub extrema: [usize; 2],
 }
 
+impl Merged {
+    /// The same with another polygon near it, measured anew against both curves.
+    ///
+    /// # Errors
+    /// [`MergeError::Cancelled`].
+    pub fn with_polygon(
+        self,
+        parts: [&FloatPolygon; 2],
+        polygon: FloatPolygon,
+        progress: &Progress,
+    ) -> Result<Self, MergeError> {
+        let merged = measured(parts, polygon, self.extrema, progress);
+        merged.map_err(|_| MergeError::Cancelled)
+    }
+}
+
 /// Where the points of a curve are on another one that runs along it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {

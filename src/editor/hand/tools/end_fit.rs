@@ -13,6 +13,7 @@ use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::view::scene::Mark;
+use crate::geometry::degrees_text;
 use crate::geometry::end_correction::EndTarget;
 
 /// The end-fit tool's state.
@@ -91,9 +92,8 @@ impl Tool for EndFitTool {
         };
         if context.settings.end_fit.picking {
             return format!(
-                "Click another curve, at its end or at any point, to match it up to {} ({}); Esc ends",
-                context.settings.end_fit.continuity.name(),
-                context.settings.end_fit.continuity.label()
+                "Click another curve, at an end or anywhere, to match it up to {}; Esc ends",
+                context.settings.end_fit.continuity.name()
             );
         }
         let name = subject.end.name();
@@ -109,12 +109,12 @@ impl Tool for EndFitTool {
             State::Direction => "Drag the target direction; Shift snaps to 15°".into(),
             State::Circle => format!("Drag the osculating circle: {}", subject.curvature()),
             State::Body { .. } => format!(
-                "Step 5: drag the {} terminal vertices as one body; the {name} snaps to the target, Ctrl frees it",
+                "Step 5: drag {} vertices as one body; the {name} snaps to the target, Ctrl frees it",
                 subject.curve.polygon.terminal_vertices(subject.end).len()
             ),
             State::Ring { angle, .. } => format!(
-                "Step 6: turned by {:.3}°; the tangent snaps to the target direction, Ctrl frees it",
-                angle.to_degrees()
+                "Step 6: turned by {}; the tangent snaps to the target direction, Ctrl frees it",
+                degrees_text(angle.to_degrees(), 3)
             ),
             State::Idle => {
                 let place = context.place();

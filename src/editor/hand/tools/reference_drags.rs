@@ -10,8 +10,8 @@ use crate::editor::hand::clean_step::stepped;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::view::hit::{CurveHit, REACH};
 use crate::editor::view::scene::{DragReadout, Mark};
-use crate::geometry::ParametricCurve;
 use crate::geometry::references::{Placement, ReferenceError};
+use crate::geometry::{ParametricCurve, degrees_text};
 
 /// How far the frame stands off the reference, in screen points.
 const MARGIN: f64 = 12.0;
@@ -171,7 +171,7 @@ impl ReferenceDrag {
     pub fn hint(&self, snapping: bool) -> String {
         match self.kind {
             Kind::Move { .. } => format!(
-                "Moving the reference: Shift locks to an axis, X, Y, Z to a model axis, Ctrl turns snapping {}; Esc cancels",
+                "Moving the reference: Shift, X, Y or Z locks an axis, Ctrl turns snapping {}",
                 if snapping { "off" } else { "on" }
             ),
             Kind::Rotate { .. } => "Rotating the reference: Shift snaps to 15°, Esc cancels".into(),
@@ -208,7 +208,7 @@ impl ReferenceDrag {
             Kind::Rotate { pivot, origin } => {
                 let seen = view.flatten(*pivot);
                 let angle = context.angle((*origin - seen).angle_to(now - seen));
-                self.label = Some((now, format!("{:.2}°", angle.to_degrees())));
+                self.label = Some((now, degrees_text(angle.to_degrees(), 2)));
                 let turn = DQuat::from_axis_angle(view.orientation.towards(), angle);
                 before.rotated_about(*pivot, turn)
             }

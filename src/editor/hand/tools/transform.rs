@@ -11,6 +11,7 @@ use crate::editor::hand::snapping::Carried;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
+use crate::geometry::degrees_text;
 
 /// The message where there is nothing to rotate or scale.
 pub const NOTHING_TO_TRANSFORM: &str =
@@ -118,7 +119,7 @@ impl TransformTool {
         let (from, to) = (turning.origin - turning.pivot, turning.now - turning.pivot);
         if self.rotates() {
             let angle = context.angle(from.angle_to(to));
-            let label = format!("{:.2}°", angle.to_degrees());
+            let label = degrees_text(angle.to_degrees(), 2);
             return (Transformation::Rotate(angle), label);
         }
         let Some(axis) = turning.axis else {
@@ -261,7 +262,7 @@ impl Tool for TransformTool {
             }
             State::Typed(_) => "Enter applies what is typed, Esc takes it back".into(),
             State::Idle => format!(
-                "Drag to {verb} about the pivot{one_axis}, or type a number; drag the pivot itself to move it, double-click to centre it; Esc ends"
+                "Drag to {verb}{one_axis}, or type a number; drag the pivot to move it; Esc ends"
             ),
         }
     }

@@ -1,0 +1,366 @@
+//! A curve that becomes its own mirror image.
+
+use std::time::Duration;
+
+use super::bridge::{self, found};
+use super::cutting::without_target;
+use super::editable::check_editable;
+use super::error::OperationError;
+use super::inputs::Inputs;
+use super::join::merge_error;
+use super::lists::given;
+use super::mirror::{FROM, PLANE, TO, check_free, plane_or_line};
+use super::operands::Operands;
+use super::operation::Operation;
+use super::outcome::{Annotation, Deviation, Figure, Outcome};
+use super::parameter::{Choice, Kind, POSITIVE, Parameter};
+use super::values::Values;
+use crate::document::{CurveId, ParameterSpan};
+use crate::geometry::approximation::merging::{Joint, MergeError, merge};
+use crate::geometry::fairing::bridging::{Bridge, join};
+use crate::geometry::fairing::requirement::Requirement;
+use crate::geometry::{
+    BezierPolygon, End, FloatPolygon, Mirror, PolygonError, Progress, significant,
+};
+
+const AXIS: Parameter = Parameter {
+    name: "axis",
+    label: "Axis",
+    help: "The mirror line through the origin",
+    kind: Kind::Choice {
+        options: &[Choice::new("y", "Y"), Choice::new("x", "X")],
+        default: 0,
+    },
+};
+
+const KEEP: Parameter = Parameter {
+    name: "keep",
+    label: "Keep",
+    help: "The half that its image completes; nearest: the mean of both, with as many vertices",
+    kind: Kind::Choice {
+        options: &[
+            Choice::new("nearest", "Nearest"),
+            Choice::new("first", "First half"),
+            Choice::new("second", "Second half"),
+        ],
+        default: 0,
+    },
+};
+
+const TOLERANCE: Parameter = Parameter {
+    name: "tolerance",
+    label: "Within",
+    help: "How far the curve may be from the half that is kept",
+    kind: Kind::optional_number(POSITIVE, |_| "1e-4 of the size"),
+};
+
+/// The tolerance by the size of the curve.
+const WITHIN: f64 = 1e-4;
+
+/// The share of the tolerance that cutting the curve in half may take.
+const OF_CUT: f64 = 0.1;
+
+/// The share that merging the half with its image may take, before the mean of both.
+const OF_MERGE: f64 = 0.5;
+
+/// How often segments are halved at most where the curve is cut.
+const HALVINGS: u32 = 6;
+
+/// The samples of a segment among which the curve crosses the mirror plane.
+const SAMPLES: usize = 32;
+
+/// A curve that crosses the plane by less than this share of its size only touches it.
+const TOUCHES: f64 = 1e-9;
+
+/// The time that a merged curve is looked for.
+const MERGING: Duration = Duration::from_secs(10);
+
+/// A curve that moves by more than this share of its size was hardly symmetric.
+const FAR: f64 = 0.1;
+
+/// The operation: its description, and how it is checked and run.
+pub static OPERATION: Operation = Operation {
+    name: "make-symmetric",
+    label: "Make symmetric",
+    help: "Make the curve its own mirror image; a curve on one side is joined to its image",
+    inputs: Inputs::One,
+    parameters: &[AXIS, FROM, TO, PLANE, KEEP, TOLERANCE],
+    check: check_editable,
+    unused: super::mirror::unused,
+    run,
+};
+
+/// Which half is kept.
+#[derive(Clone, Copy, PartialEq)]
+enum Half {
+    First,
+    Second,
+}
+
+impl Half {
+    /// The end of the half at the mirror plane.
+    fn inner(self) -> End {
+        match self {
+            Self::First => End::Finish,
+            Self::Second => End::Start,
+        }
+    }
+
+    /// A half and its image in the order of the whole.
+    fn in_order<T>(self, half: T, image: T) -> [T; 2] {
+        match self {
+            Self::First => [half, image],
+            Self::Second => [image, half],
+        }
+    }
+}
+
+fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    check_free(input, id)?;
+    let polygon = &curve.polygon;
+    let axes = values.choice(&AXIS, &[[true, false, false], [false, true, false]]);
+    let mirror = plane_or_line(values, axes)?;
+    let keep = values.choice(&KEEP, &[None, Some(Half::First), Some(Half::Second)]);
+    let crossings = crossings(polygon, &mirror);
+    let (half, span) = match (keep, &crossings[..]) {
+        (None, [_, ..]) => return nearest(input, polygon, &mirror),
+        (None, []) if polygon.is_periodic() => return nearest(input, polygon, &mirror),
+        (Some(_), _) if polygon.is_periodic() => {
+            let done = "cut in half";
+            return Err(PolygonError::PeriodicCurve { done }.into());
+        }
+        (Some(Half::First), [first, ..]) => (Half::First, [0.0, *first]),
+        (Some(Half::Second), [.., last]) => (Half::Second, [*last, polygon.segments() as f64]),
+        (_, []) => (
+            nearer_end(polygon, &mirror),
+            [0.0, polygon.segments() as f64],
+        ),
+    };
+    completed(input, values, (half, span), &mirror, progress)
+}
+
+/// The mean of the curve and its image.
+fn nearest(
+    input: &Operands,
+    polygon: &FloatPolygon,
+    mirror: &Mirror,
+) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let symmetric = polygon.symmetrised(mirror)?;
+    if symmetric == *polygon {
+        let mut outcome = Outcome::unchanged(Deviation::Exact);
+        outcome.remarks = vec!["The curve is symmetric already".to_owned()];
+        return Ok(outcome);
+    }
+    curve.check_held(&symmetric)?;
+    let deviation = polygon.deviation(&symmetric)?;
+    let mut outcome = Outcome::reshaped(id, symmetric, Deviation::AtMost(deviation));
+    let size = BezierPolygon::from_float(polygon).size();
+    if deviation > FAR * size {
+        let moved = significant(deviation, 3);
+        outcome.warnings.push(format!(
+            "The curve moves by up to {moved}: its halves differ much; keep one of them (--keep)"
+        ));
+    }
+    Ok(outcome)
+}
+
+/// One half of the curve, or all of a curve on one side, with its image.
+fn completed(
+    input: &Operands,
+    values: &Values,
+    (half, span): (Half, [f64; 2]),
+    mirror: &Mirror,
+    progress: &Progress,
+) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let polygon = &curve.polygon;
+    let size = BezierPolygon::from_float(polygon).size();
+    let tolerance = given(values, &TOLERANCE).unwrap_or(WITHIN * size);
+    let (part, cut) = cut(polygon, span, OF_CUT * tolerance)?;
+    let image = image(&part, mirror)?;
+    let [first, second] = half.in_order(&part, &image);
+    let joint = Joint::between(first, second);
+    let whole = match joint.check(part.size()) {
+        Ok(()) => merged([first, second], mirror, tolerance, progress)?,
+        Err(MergeError::Corner { angle }) => return Ok(corner(id, angle)),
+        Err(_) => bridged([first, second], mirror, progress)?,
+    };
+    let symmetric = whole.polygon;
+    let deviation = whole.off + cut;
+    let spans = vec![ParameterSpan {
+        old: span,
+        new: match half {
+            Half::First => [0.0, whole.joint[0]],
+            Half::Second => [whole.joint[1], symmetric.segments() as f64],
+        },
+    }];
+    let middle = symmetric.point(0.5 * symmetric.segments() as f64);
+    let count = symmetric.vertices().len();
+    let mut outcome = Outcome::renumbered(input, symmetric, spans, Deviation::AtMost(deviation))?;
+    let cut_off = without_target(input.document(), id, curve, half.inner());
+    outcome.edits.extend(cut_off);
+    outcome.annotations.push(Annotation::Point(middle));
+    let limit = Requirement::Limit {
+        found: deviation,
+        most: tolerance,
+    };
+    let failed = whole.fault.as_ref();
+    let failed = failed.map(|_| Requirement::Failed { left: None });
+    outcome.requirements = vec![(id, failed.into_iter().chain([limit]).collect())];
+    outcome.figures = vec![
+        Figure::word("method", "Method", whole.method),
+        Figure::count("vertices", "Vertices", count),
+    ];
+    outcome.warnings.extend(whole.fault);
+    Ok(outcome)
+}
+
+/// A half and its image in one.
+struct Whole {
+    polygon: FloatPolygon,
+    method: &'static str,
+    /// Where the first of both ends on it, and where the second begins.
+    joint: [f64; 2],
+    /// How far it is from both at most.
+    off: f64,
+    /// Why it is no use.
+    fault: Option<String>,
+}
+
+/// Merge a half with its image.
+fn merged(
+    parts: [&FloatPolygon; 2],
+    mirror: &Mirror,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Whole, OperationError> {
+    let progress = progress.limited(MERGING);
+    let merged = merge(parts[0], parts[1], OF_MERGE * tolerance, &progress);
+    let merged = merged.and_then(|merged| {
+        let symmetric = merged.polygon.symmetrised(mirror)?;
+        merged.with_polygon(parts, symmetric, &progress)
+    });
+    let merged = merged.map_err(|error| merge_error(error, &progress))?;
+    Ok(Whole {
+        joint: [merged.tracks[0].at(parts[0].segments() as f64); 2],
+        polygon: merged.polygon,
+        method: "merge",
+        off: merged.deviation,
+        fault: None,
+    })
+}
+
+/// Bridge the gap between a curve and its image.
+fn bridged(
+    parts: [&FloatPolygon; 2],
+    mirror: &Mirror,
+    progress: &Progress,
+) -> Result<Whole, OperationError> {
+    let wanted = Bridge {
+        vertices: None,
+        second_moves: false,
+    };
+    let found = found(join(parts[0], parts[1], &wanted, progress))?;
+    let fault = bridge::fault(&found, parts);
+    let symmetric = found.polygon.symmetrised(mirror)?;
+    Ok(Whole {
+        joint: bridge::joint(&found),
+        method: "bridge",
+        // Both parts have as many segments, so that the bridge lies in the middle.
+        off: found.polygon.deviation(&symmetric)?,
+        fault: fault.map(|fault| format!("{fault}: bring the end nearer to the axis")),
+        polygon: symmetric,
+    })
+}
+
+/// Say that a half meets its image at a corner.
+fn corner(id: CurveId, angle: f64) -> Outcome {
+    let angle = significant(angle.to_degrees(), 3);
+    Outcome {
+        requirements: vec![(id, vec![Requirement::Failed { left: None }])],
+        remarks: vec![format!(
+            "The curve meets its image at a corner of {angle}°: turn its end perpendicular to the axis, or keep Nearest"
+        )],
+        ..Outcome::unchanged(Deviation::Unmeasured)
+    }
+}
+
+/// Cut a part out of a curve, and say how far off it is: as near as asked for, or as halvings of segments bring it.
+fn cut(
+    polygon: &FloatPolygon,
+    [from, to]: [f64; 2],
+    within: f64,
+) -> Result<(FloatPolygon, f64), OperationError> {
+    if [from, to] == [0.0, polygon.segments() as f64] {
+        return Ok((polygon.clone(), 0.0));
+    }
+    let mut part = polygon.trimmed(from, to, 0)?;
+    for halvings in 1..=HALVINGS {
+        if part.exact || part.deviation <= within {
+            break;
+        }
+        part = polygon.trimmed(from, to, halvings)?;
+    }
+    let off = if part.exact { 0.0 } else { part.deviation };
+    Ok((part.polygon, off))
+}
+
+/// The mirror image of a part, in the direction in which it goes on from it.
+fn image(part: &FloatPolygon, mirror: &Mirror) -> Result<FloatPolygon, OperationError> {
+    let vertices = part.vertices().iter().rev();
+    let vertices = vertices.map(|it| mirror.point(*it)).collect();
+    let weights = part.weights();
+    let weights = weights.map(|weights| weights.iter().rev().copied().collect());
+    Ok(FloatPolygon::new(part.degree(), vertices, weights, false)?)
+}
+
+/// The parameters at which a curve crosses the mirror plane; none where it only touches it.
+fn crossings(polygon: &FloatPolygon, mirror: &Mirror) -> Vec<f64> {
+    let height = |u: f64| mirror.height(polygon.point(u)).unwrap_or(0.0);
+    let last = polygon.segments() * SAMPLES;
+    let least = TOUCHES * polygon.size();
+    let mut crossings = Vec::new();
+    let mut before: Option<(f64, f64)> = None;
+    for sample in 0..=last {
+        let u = sample as f64 / SAMPLES as f64;
+        let here = height(u);
+        if here.abs() <= least {
+            continue;
+        }
+        if let Some((from, there)) = before
+            && there * here < 0.0
+        {
+            crossings.push(bisected([from, u], there, height));
+        }
+        before = Some((u, here));
+    }
+    crossings
+}
+
+/// The place between two at which the height, `below` at the first, changes its sign.
+fn bisected([mut from, mut to]: [f64; 2], below: f64, height: impl Fn(f64) -> f64) -> f64 {
+    loop {
+        let middle = 0.5 * (from + to);
+        if middle <= from || middle >= to {
+            return middle;
+        }
+        match height(middle) * below > 0.0 {
+            true => from = middle,
+            false => to = middle,
+        }
+    }
+}
+
+/// The half that a curve on one side of the mirror plane is: its end nearer to the plane is inside.
+fn nearer_end(polygon: &FloatPolygon, mirror: &Mirror) -> Half {
+    let [start, finish] = End::BOTH.map(|end| {
+        let height = mirror.height(polygon.end_jet(end).point);
+        height.unwrap_or(0.0).abs()
+    });
+    match start < finish {
+        true => Half::Second,
+        false => Half::First,
+    }
+}

@@ -1,0 +1,150 @@
+//! Curves that become their own mirror images.
+
+use batten::geometry::{End, FloatPolygon, Mirror};
+use batten::operations::{Deviation, Value};
+use glam::DVec3;
+
+use crate::common::Random;
+use crate::runner::Runner;
+
+/// The mirror line is the y axis.
+const MIRROR: Mirror = Mirror::Signs([true, false, false]);
+
+const FIRST: (&str, Value) = ("keep", Value::Choice(1));
+const SECOND: (&str, Value) = ("keep", Value::Choice(2));
+
+/// A quarter of an ellipse, or less by an angle: it ends on the axis, or beside it.
+fn quarter(less: f64) -> FloatPolygon {
+    let vertex = |index: usize| {
+        let angle = std::f64::consts::FRAC_PI_2 - less + 0.12 * (index as f64 - 12.0);
+        (40.0 * angle.cos(), 100.0 * angle.sin())
+    };
+    let vertices: Vec<(f64, f64)> = (0..14).map(vertex).collect();
+    FloatPolygon::planar(3, &vertices).expect("a polygon")
+}
+
+#[track_caller]
+fn check_is_symmetric(polygon: &FloatPolygon) {
+    let count = polygon.vertices().len();
+    for index in 0..count {
+        let image = MIRROR.point(polygon.vertex(index));
+        assert_eq!(polygon.vertex(count - 1 - index), image, "vertex {index}");
+    }
+}
+
+#[test]
+fn the_mean_of_both_halves_keeps_the_number_of_vertices() {
+    for seed in 0..40 {
+        let polygon = Random(seed).gentle(4, 8 + seed as usize % 9, false, seed % 2 == 0);
+        let middle = polygon.point(0.5 * polygon.segments() as f64);
+        let vertices = polygon.vertices().iter().map(|it| *it - middle);
+        let weights = polygon.weights().map(<[f64]>::to_vec);
+        let polygon = FloatPolygon::new(4, vertices.collect(), weights, false).expect("a polygon");
+        let (outcome, curves) = Runner::of(polygon.clone()).done("make-symmetric", &[]);
+        let symmetric = &curves[0].polygon;
+        assert_eq!(symmetric.vertices().len(), polygon.vertices().len());
+        check_is_symmetric(symmetric);
+        let Deviation::AtMost(bound) = outcome.deviation else {
+            panic!("{:?}", outcome.deviation);
+        };
+        for step in 0..=100 {
+            let u = 0.01 * f64::from(step) * polygon.segments() as f64;
+            let moved = polygon.point(u).distance(symmetric.point(u));
+            assert!(moved <= bound * (1.0 + 1e-12), "{moved} beyond {bound}");
+        }
+        let (again, curves) = Runner::of(symmetric.clone()).done("make-symmetric", &[]);
+        assert_eq!(again.deviation, Deviation::Exact);
+        assert_eq!(curves[0].polygon, *symmetric);
+    }
+}
+
+#[test]
+fn each_half_is_completed_by_its_image() {
+    // A wave whose crossing of the axis is level: both halves go on smoothly.
+    let vertex = |index: usize| {
+        let t = 0.35 * (index as f64 - 7.0);
+        (t, t.cos() + 0.05 * t * t * t)
+    };
+    let vertices: Vec<(f64, f64)> = (0..15).map(vertex).collect();
+    let polygon = FloatPolygon::planar(4, &vertices).expect("a polygon");
+    let size = polygon.size();
+    for (keep, end) in [(FIRST, End::Start), (SECOND, End::Finish)] {
+        let (outcome, curves) = Runner::of(polygon.clone()).done("make-symmetric", &[keep]);
+        assert!(outcome.reached);
+        let symmetric = &curves[0].polygon;
+        check_is_symmetric(symmetric);
+        let [before, after] = [&polygon, symmetric].map(|it| it.end_jet(end).point);
+        assert!(before.distance(after) <= 1e-4 * size, "{before} {after}");
+        let Deviation::AtMost(bound) = outcome.deviation else {
+            panic!("{:?}", outcome.deviation);
+        };
+        assert!(bound <= 1e-4 * size, "{bound}");
+        // Every point of the half lies near the whole.
+        let steps = 0..=200;
+        let half = steps.map(|step| 0.005 * f64::from(step) * polygon.segments() as f64);
+        for u in half {
+            let at = polygon.point(u);
+            if (at.x < 0.0) != (end == End::Start) {
+                continue;
+            }
+            let places = 0..=4000;
+            let places = places.map(|step| f64::from(step) / 4000.0 * symmetric.segments() as f64);
+            let off = places.map(|place| symmetric.point(place).distance(at));
+            let off = off.fold(f64::INFINITY, f64::min);
+            assert!(off <= bound + 1e-6 * size, "{off} beyond {bound} at {at}");
+        }
+    }
+}
+
+#[test]
+fn a_curve_on_one_side_is_joined_to_its_image() {
+    // It nearly reaches the axis, or leaves a gap.
+    for (less, method) in [(5e-4, "merge"), (0.15, "bridge")] {
+        let polygon = quarter(less);
+        assert!(polygon.end_jet(End::Finish).point.x > 0.0);
+        let (outcome, curves) = Runner::of(polygon.clone()).done("make-symmetric", &[]);
+        let told = outcome.figures.iter().find(|it| it.name == "method");
+        assert_eq!(told.map(|it| it.value.clone()), Some(Value::Word(method)));
+        let symmetric = &curves[0].polygon;
+        check_is_symmetric(symmetric);
+        let [start, finish] = End::BOTH.map(|end| symmetric.end_jet(end).point);
+        let outer = polygon.end_jet(End::Start).point;
+        let size = polygon.size();
+        assert!(start.distance(outer) <= 2e-4 * size, "{start} {outer}");
+        assert!(finish.distance(MIRROR.point(outer)) <= 2e-4 * size);
+    }
+}
+
+#[test]
+fn a_corner_at_the_axis_is_not_reached() {
+    let line: Vec<(f64, f64)> = (0..8)
+        .map(|it| (f64::from(it) - 5.0, f64::from(it)))
+        .collect();
+    let polygon = FloatPolygon::planar(3, &line).expect("a polygon");
+    let outcome = Runner::of(polygon).run("make-symmetric", &[FIRST]);
+    let outcome = outcome.expect("an outcome");
+    assert!(!outcome.reached && outcome.edits.is_empty());
+    assert!(
+        outcome.remarks[0].contains("at a corner of 90.0°"),
+        "{outcome:?}"
+    );
+}
+
+#[test]
+fn closed_curves_become_symmetric_and_halves_of_them_are_refused() {
+    let vertex = |index: usize| {
+        let angle = std::f64::consts::TAU * (index as f64 + 0.3) / 12.0;
+        DVec3::new(3.0 * angle.cos() + 0.1, 2.0 * angle.sin(), 0.0)
+    };
+    let vertices = (0..12).map(vertex).collect();
+    let polygon = FloatPolygon::new(5, vertices, None, true).expect("a polygon");
+    let runner = Runner::of(polygon);
+    let (_, curves) = runner.done("make-symmetric", &[]);
+    let symmetric = &curves[0].polygon;
+    assert!(symmetric.is_periodic());
+    for vertex in symmetric.vertices() {
+        assert!(symmetric.vertices().contains(&MIRROR.point(*vertex)));
+    }
+    let refused = runner.refused("make-symmetric", &[FIRST]);
+    assert!(refused.contains("cut in half"), "{refused}");
+}
