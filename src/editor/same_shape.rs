@@ -76,7 +76,7 @@ impl SameShape {
         let kinds = ["extrema", "inflections"].into_iter().enumerate();
         let changed = kinds.filter_map(|(kind, name)| {
             let [before, now] = self.features.map(|counts| counts[kind]);
-            (before != now).then(|| format!("{name} {before} → {now}"))
+            (before != now).then(|| format!("{name} {before} before, {now} now"))
         });
         let changed: Vec<String> = changed.collect();
         match changed.is_empty() {

@@ -258,18 +258,26 @@ fn last_step_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     step_ui(ui, 7, "Refine and repeat", report.within, |ui| {
         let button = Button::new("Repeat").min_size(vec2(BUTTON, ROW));
         let help = "Repeat steps 2 to 6 on both ends until within the tolerance";
-        // The steps move and turn, and bend nothing.
-        let bends = report.target.is_some_and(|target| {
-            target.curvature.is_some() || target.slope.is_some() || target.normal.is_some()
-        });
+        let bends = bends(report);
         let instead = if bends {
-            "The steps meet no curvature: use “Both ends at once”"
+            BENDS
         } else {
             "Set a target first, on a curve that is not locked"
         };
         let response = ui.add_enabled(is_ready(report) && !bends, button);
         let response = response.on_hover_text(help).on_disabled_hover_text(instead);
         response.clicked().then_some(EndFitAction::Repeat)
+    })
+}
+
+/// Why the steps do not do what is required.
+const BENDS: &str =
+    "Steps 5 and 6 bend nothing: “Both ends at once” meets curvatures, of one end too.";
+
+/// Whether the target requires more than the steps do: they move and turn.
+fn bends(report: &EndFitReport) -> bool {
+    report.target.is_some_and(|target| {
+        target.curvature.is_some() || target.slope.is_some() || target.normal.is_some()
     })
 }
 
@@ -355,14 +363,19 @@ fn outcome_ui(ui: &mut Ui, report: &EndFitReport) {
             widgets::remark_with_icon(ui, icon, text, colour);
         }
         None if report.target.is_none() => {
-            let text = "No target yet: click its place on the canvas, or “Use current end”.";
+            let text = "No target yet: click its place beside the end, or “Use current end”.";
             widgets::note(ui, text);
         }
         _ => {}
     }
     // A refusal says the same.
     let has_failed = matches!(report.outcome, Some(Err(_)));
-    if !report.within && !has_failed {
+    if has_failed {
+        return;
+    }
+    if bends(report) && !report.is_met() {
+        widgets::note(ui, BENDS);
+    } else if !report.within {
         overlap_ui(ui, report.overlap);
     }
 }

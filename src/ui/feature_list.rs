@@ -243,10 +243,12 @@ fn row_ui(
     let radius = row
         .value
         .filter(|_| row.bend().is_some() && display.shows_radius());
-    let radius = radius.map(|[low, high]| {
-        let radius = figures::radius_of(0.5 * (low + high), 4);
-        format!(", R {}", document_unit::length(ui.ctx(), radius))
-    });
+    let radius_with = |digits: usize| {
+        let [low, high] = radius?;
+        let radius = figures::radius_of(0.5 * (low + high), digits);
+        Some(format!(", R {}", document_unit::length(ui.ctx(), radius)))
+    };
+    let radius = radius_with(4);
     let name = match (row.remark, row.count) {
         ("", 1) => short_name(row.kind).to_owned() + &bend + radius.as_deref().unwrap_or_default(),
         ("", count) => format!("{} ×{count}", short_name(row.kind)),
@@ -262,11 +264,18 @@ fn row_ui(
     };
     let mut left = rect.with_min_x(rect.left() + 6.0 * STEP);
     left.max.x -= if is_wide { 24.0 } else { 38.0 } * STEP;
-    let short = match (row.remark, row.count, row.bend(), &radius) {
-        ("", 1, Some("tightest"), Some(radius)) => format!("Tightest{radius}"),
-        ("", 1, Some(_), Some(radius)) => format!("Flattest{radius}"),
-        _ => name.replace("maximum", "max").replace("minimum", "min"),
+    let bend_with = |digits: usize| match (row.remark, row.count, row.bend(), radius_with(digits)) {
+        ("", 1, Some("tightest"), Some(radius)) => Some(format!("Tightest{radius}")),
+        ("", 1, Some(_), Some(radius)) => Some(format!("Flattest{radius}")),
+        _ => None,
     };
+    // As many digits as there is room for.
+    let fits = |text: &String| !widgets::cut_short(ui, text, left.width(), tokens.text).elided;
+    let bends = (2..=4).rev().filter_map(bend_with);
+    let alone = || Some(radius_with(4)?.trim_start_matches(", ").to_owned());
+    let short = bends.into_iter().find(fits);
+    let short = short.or_else(|| bend_with(4).and_then(|_| alone()));
+    let short = short.unwrap_or_else(|| name.replace("maximum", "max").replace("minimum", "min"));
     widgets::label_in(ui, left, &short, tokens.text);
     let inner = rect.with_max_x(rect.right() - STEP);
     let place = match row.value.is_none() && is_wide {

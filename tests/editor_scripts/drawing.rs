@@ -81,6 +81,43 @@ fn undo_is_offered_for_points_in_an_empty_document_too() {
 }
 
 #[test]
+fn a_cancelled_drawing_comes_back() {
+    let mut script = drawing();
+    let before = script.editor.document().len();
+    let drawn = script.scene().marks.len();
+    script.key(Key::Escape);
+    assert!(script.message().contains("Ctrl+Z"), "{}", script.message());
+    assert!(script.scene().marks.len() < drawn);
+    script.command(Command::Undo);
+    assert_eq!(script.scene().marks.len(), drawn);
+    script.key(Key::Enter);
+    assert_eq!(script.editor.document().len(), before + 1);
+    // Other points leave nothing to bring back.
+    let mut script = drawing();
+    script.key(Key::Escape);
+    script.click(CORNERS[0]);
+    script.key(Key::Backspace);
+    assert!(!Command::Undo.is_enabled(&script.editor));
+}
+
+#[test]
+fn the_view_stays_where_the_first_curve_is_drawn() {
+    let mut script = Script::example("arc");
+    script.editor.begin_empty();
+    script.tool(ToolKind::Draw);
+    script.draw_by(DrawWay::OnClicks);
+    script.click(CORNERS[0]);
+    script.click(CORNERS[1]);
+    let view = *script.editor.view().viewport();
+    for corner in &CORNERS[2..] {
+        script.click(*corner);
+    }
+    script.key(Key::Enter);
+    assert_eq!(script.editor.document().len(), 1);
+    assert_eq!(*script.editor.view().viewport(), view);
+}
+
+#[test]
 fn the_first_curve_that_is_drawn_is_fitted_with_a_comb_of_its_own() {
     let mut script = Script::example("periodic");
     script.editor.view_mut().set_comb(CombSettings {

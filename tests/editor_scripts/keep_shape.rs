@@ -181,7 +181,10 @@ fn features_that_a_deletion_changes_are_named_before_the_click() {
     script.tool(ToolKind::Delete);
     script.move_to(script.at_vertex(4));
     let hint = script.editor.hint();
-    assert!(hint.contains("extrema") && hint.contains("→"), "{hint}");
+    assert!(
+        hint.contains("extrema") && hint.contains(" before, "),
+        "{hint}"
+    );
 }
 
 #[test]

@@ -105,6 +105,7 @@ impl Hand {
             nudge_step: self.nudge_step(),
             following: self.following,
             added: self.keeping.added(),
+            held_back: self.keeping.held_back(),
             settings: &self.settings,
             pointer: pointer.map(|at| view.viewport.to_model(at)),
             rested: self.gestures.rested(),

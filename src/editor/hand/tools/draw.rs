@@ -21,6 +21,8 @@ const DEGREE: usize = 5;
 #[derive(Debug, Default)]
 pub struct DrawTool {
     points: Vec<DVec3>,
+    /// The points that Esc took away.
+    discarded: Vec<DVec3>,
     /// Where the drag that goes on began.
     pressed: Option<DVec2>,
 }
@@ -129,6 +131,7 @@ impl DrawTool {
     fn set(&mut self, vertex: DVec3, apart: f64) {
         let last = self.points.last();
         if last.is_none_or(|last| last.distance(vertex) > apart) {
+            self.discarded.clear();
             self.points.push(vertex);
         }
     }
@@ -229,15 +232,21 @@ impl Tool for DrawTool {
             }
             Gesture::Key(Key::Escape) if self.points.is_empty() => vec![Effect::Finish],
             Gesture::Key(Key::Escape) => {
-                self.points.clear();
-                Vec::new()
+                self.discarded = std::mem::take(&mut self.points);
+                vec![Effect::Say(
+                    "Drawing cancelled: Ctrl+Z brings it back".into(),
+                )]
             }
             _ => Vec::new(),
         }
     }
 
     fn undo_label(&self) -> Option<&'static str> {
-        (!self.points.is_empty()).then_some("last point")
+        match (&self.points[..], &self.discarded[..]) {
+            ([], []) => None,
+            ([], _) => Some("Esc"),
+            _ => Some("last point"),
+        }
     }
 
     fn drawn(&self) -> &[DVec3] {
@@ -245,20 +254,25 @@ impl Tool for DrawTool {
     }
 
     fn undo(&mut self) {
-        self.points.pop();
+        if self.points.is_empty() {
+            self.points = std::mem::take(&mut self.discarded);
+        } else {
+            self.points.pop();
+        }
     }
 
     fn hint(&self, context: &Context) -> String {
         match self.points.len() {
             0 => format!(
-                "{}: click to set the first point, or type x,y; T changes the way, Esc ends",
+                "{}: click to set the first point, or type x,y; T changes the way, Esc leaves",
                 context.settings.draw.way.label()
             ),
             1 if context.document.is_empty() => {
                 "Click the next point, or type it: the distance sets the size of the view".into()
             }
-            1 | 2 => "Click the next point, or type @dx,dy or @length<angle; Shift snaps to 15°, Backspace removes the last one, Esc starts over"
-                .into(),
+            1 | 2 => {
+                "Click the next point, or type @dx,dy or @length<angle; Shift snaps to 15°".into()
+            }
             count => format!(
                 "{}, degree {}: Enter or right click ends; click the first point to make it periodic",
                 counted(count, "point", "points"),
@@ -308,6 +322,7 @@ impl Tool for DrawTool {
             ));
         }
         self.pressed = None;
+        self.discarded.clear();
         self.points.push(vertex);
         Ok(Vec::new())
     }

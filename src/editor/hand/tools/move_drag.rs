@@ -55,7 +55,8 @@ impl MoveDrag {
         self.by
     }
 
-    /// Tell of a point that was dragged from somewhere to somewhere, with a remark and what the drag adds.
+    /// Tell of a point that was dragged from somewhere to somewhere, with a remark and what the drag adds, or why it
+    /// is held back.
     pub fn readout(
         &self,
         [from, to]: [DVec3; 2],
@@ -64,7 +65,8 @@ impl MoveDrag {
         context: &Context,
     ) -> DragReadout {
         let name = self.snap.as_ref().map(|snap| snap.name.clone());
-        let added = context.added.map(str::to_owned);
+        let held = context.held_back.map(|reason| format!("Held; {reason}"));
+        let added = held.or(context.added.map(str::to_owned));
         DragReadout {
             at: context.viewport.flatten(to),
             way: context.viewport.flatten(to - from),

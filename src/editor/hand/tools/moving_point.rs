@@ -98,9 +98,7 @@ impl MovingPoint {
                     PointKind::OnCurve(_) => "the curve".to_owned(),
                 };
                 let words = self.words(context).unwrap_or_default();
-                format!(
-                    "Moving {what}: {words}, the wheel sets how many; hold Alt to compare, Esc cancels"
-                )
+                format!("Moving {what}: {words}; the wheel sets how many")
             }
         }
     }

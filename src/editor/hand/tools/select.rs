@@ -26,6 +26,9 @@ const LEG_REACH: f64 = 0.5 * REACH;
 /// How much nearer than the curve a leg must be to take a press, in screen points: legs hug fair curves.
 const CLEARLY: f64 = 3.0;
 
+/// The shortest comb that a drag of a tip makes, by what it was: one that nobody sees is not found again.
+const SHORTEST: f64 = 0.05;
+
 /// The select tool's state.
 #[derive(Debug, Default)]
 pub struct SelectTool {
@@ -146,17 +149,15 @@ impl Tool for SelectTool {
             State::Moving(_) if context.following.follow.is_some() => {
                 let words = context.following.words().unwrap_or_default();
                 let stiffness = match context.following.follow {
-                    Some(Follow::InHarmony) => ", with Shift how stiff they are",
-                    _ => "",
+                    Some(Follow::InHarmony) => ", with Shift how stiff",
+                    _ => "; Alt compares",
                 };
-                format!(
-                    "{words}: the wheel sets how many{stiffness}; hold Alt to compare, Esc cancels"
-                )
+                format!("{words}: the wheel sets how many{stiffness}")
             }
             State::Moving(Moving { vertices, .. }) => {
                 let staying = context.staying().map(|staying| format!(" ({staying})"));
                 format!(
-                    "Moving {}{}: Shift locks to an axis, X, Y, Z to a model axis, Ctrl turns snapping {}, hold Alt to compare, Esc cancels",
+                    "Moving {}{}: Shift, X, Y or Z locks an axis; Ctrl: snapping {}; Alt compares",
                     counted(vertices.len(), "vertex", "vertices"),
                     staying.unwrap_or_default(),
                     if context.snapping { "off" } else { "on" },
@@ -183,12 +184,11 @@ impl Tool for SelectTool {
                     }
                 } else if selected > 0 {
                     format!(
-                        "{} selected: drag (K keeps features), or nudge with the arrow keys (Shift ×10, Ctrl ×0.1); Del deletes",
+                        "{} selected: drag, or nudge with arrow keys (Shift ×10, Ctrl ×0.1); Del deletes",
                         counted(selected, "vertex", "vertices")
                     )
                 } else if Frame::of(context).is_some() {
-                    "Drag the reference to move it, a corner of its frame to scale it, the handle above to rotate it; or nudge it with the arrow keys"
-                        .into()
+                    "Drag the reference, a corner of its frame to scale it, the handle above to rotate it".into()
                 } else if context.document.is_empty() {
                     "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
                 } else {
@@ -259,7 +259,7 @@ impl SelectTool {
                 let arm = *tip - *foot;
                 let reach = (context.model(place) - *foot).dot(arm) / arm.length_squared();
                 let mut comb = context.hits.view.comb;
-                comb.scale = *scale * reach.max(1e-3);
+                comb.scale = *scale * reach.max(SHORTEST);
                 vec![Effect::Look(Look::Comb(comb))]
             }
         }

@@ -47,6 +47,8 @@ pub struct Context<'a> {
     pub following: Following,
     /// The features that the running drag adds, in words.
     pub added: Option<&'a str>,
+    /// Why the running drag is held back, in words.
+    pub held_back: Option<&'a str>,
     /// The settings of the tools.
     pub settings: &'a ToolSettings,
     /// Where the pointer is, in the view plane.
