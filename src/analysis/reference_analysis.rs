@@ -116,7 +116,7 @@ mod tests {
 
     use super::*;
     use crate::analysis::SampledKind;
-    use crate::geometry::references::ReferenceCurve;
+    use crate::geometry::references::{Nurbs, ReferenceCurve, ReferenceForm};
 
     /// Roundings of a placement, in units of what is placed.
     const ROUNDING: f64 = 1e-13;
@@ -198,6 +198,58 @@ mod tests {
                 assert_eq!(kind, expected, "{text}");
                 assert!((t - place).abs() < 1e-12, "{text}: {t} {place}");
             }
+        }
+    }
+
+    #[test]
+    fn a_closed_curve_has_no_extremum_less_at_its_seam() {
+        for (text, expected) in [
+            ("ellipse:a=3,b=1", 4),
+            ("ellipse:a=3,b=1,from=0.5,to=6.783185307179586", 4),
+            (
+                "ellipse:a=1,b=3,from=1.5707963267948966,to=7.853981633974483",
+                4,
+            ),
+            ("circle:radius=2", 0),
+            // An open one keeps none at its ends.
+            ("ellipse:a=3,b=1,from=0,to=3.141592653589793", 1),
+            ("ellipse:a=3,b=1,from=0,to=6.2", 3),
+        ] {
+            let found = analysed(text).features().to_vec();
+            assert_eq!(found.len(), expected, "{text}: {found:?}");
+            assert!(found.is_sorted_by(|a, b| a.u < b.u), "{text}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn the_seam_of_a_closed_spline_does_not_matter() {
+        let count = 12;
+        let corner = |index: usize| {
+            let angle = std::f64::consts::TAU * (index % count) as f64 / count as f64;
+            let radius = 10.0 + (3.0 * angle).cos();
+            DVec3::new(radius * angle.cos(), radius * angle.sin(), 0.0)
+        };
+        for degree in [3, 5] {
+            let counts: Vec<usize> = (0..count)
+                .map(|seam| {
+                    let points = (0..count + degree)
+                        .map(|index| corner(seam + index))
+                        .collect();
+                    let knots = (0..count + 2 * degree + 1)
+                        .map(|knot| knot as f64)
+                        .collect();
+                    let nurbs = Nurbs::new(degree, knots, points, None, true).expect("a spline");
+                    let curve = ReferenceCurve::of(ReferenceForm::Nurbs(nurbs)).expect("a curve");
+                    let analysis = ReferenceAnalysis::new(Arc::new(Reference::new("a", curve)));
+                    analysis.features().len()
+                })
+                .collect();
+            // Three bumps: a largest and a least curvature each, and two inflections each where they are hollow.
+            assert!(
+                counts.iter().all(|it| *it == counts[0] && it % 2 == 0),
+                "{counts:?}"
+            );
+            assert!(counts[0] >= 6, "{counts:?}");
         }
     }
 

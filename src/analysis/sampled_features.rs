@@ -1,10 +1,14 @@
 //! Features of a curve that no polygon makes: found among samples, not proved.
 
 use super::curve_samples::SampledCurve;
-use crate::geometry::sampled_cusps;
+use crate::geometry::{Jet, sampled_cusps};
 
 /// The rounding of a sampled curvature, in units of the largest one: smaller ups and downs are noise.
 const ROUNDING: f64 = 1e-9;
+
+/// How far the ends of a closed curve may be apart, in units of its length, and their directions and curvatures may
+/// differ, in units of the largest one: above the digits that files have, below what can be seen.
+const SEAM: f64 = 1e-6;
 
 /// Steps of a bisection between two samples: to the last digit.
 const HALVINGS: usize = 60;
@@ -35,17 +39,32 @@ pub struct SampledFeature {
 
 /// List the inflections and the extrema of the curvature within a curve that its samples show, and its cusps,
 /// in the order of u. An extremum must stand out from the samples around it by more than rounding; a cusp,
-/// near which the curvature grows beyond all bounds, is none.
+/// near which the curvature grows beyond all bounds, is none. A curve that closes smoothly has no ends: what is at its
+/// seam counts once.
 pub(super) fn sampled_features(sampled: SampledCurve<'_>) -> Vec<SampledFeature> {
     let cusps = sampled_cusps(sampled.curve);
-    let runs = runs(curvatures(sampled), &cusps, sampled);
+    let mut runs = runs(curvatures(sampled), &cusps, sampled);
     let largest = runs.iter().flatten().map(|(_, value)| value.abs());
-    let noise = ROUNDING * largest.fold(0.0, f64::max);
+    let largest = largest.fold(0.0, f64::max);
+    let noise = ROUNDING * largest;
+    let turn = sampled.curve.pieces() as f64;
+    let is_closed = is_closed(sampled, largest);
+    if is_closed {
+        close(&mut runs, turn);
+    }
     let mut features: Vec<SampledFeature> = Vec::new();
     for run in &runs {
-        features.extend(extrema(run, noise, sampled));
+        features.extend(match is_closed && cusps.is_empty() {
+            true => extrema_around(run, noise, sampled),
+            false => extrema(run, noise, sampled),
+        });
         if sampled.samples.is_planar() {
             features.extend(inflections(run, noise, sampled));
+        }
+    }
+    if is_closed {
+        for feature in &mut features {
+            feature.u = wrapped(turn, feature.u);
         }
     }
     // Through infinity the curvature may change its sign, but the curve has no point there.
@@ -57,6 +76,72 @@ pub(super) fn sampled_features(sampled: SampledCurve<'_>) -> Vec<SampledFeature>
     }));
     features.sort_by(|a, b| a.u.total_cmp(&b.u));
     features
+}
+
+/// Whether a curve ends where it begins, with the same direction and the same curvature.
+fn is_closed(sampled: SampledCurve<'_>, largest: f64) -> bool {
+    let curve = sampled.curve;
+    let start = curve.piece_jet(0, 0.0);
+    let end = curve.piece_jet(curve.pieces().saturating_sub(1), 1.0);
+    let planar = sampled.samples.is_planar();
+    let [from, to] = [start, end].map(|jet| jet.curvature_of(planar));
+    start.point.distance(end.point) <= SEAM * sampled.samples.length()
+        && start.first.angle_between(end.first) <= SEAM
+        && (from - to).abs() <= SEAM * largest
+}
+
+/// Join what is before the first cusp of a closed curve to what is behind the last one. Without a cusp go once around
+/// from where the curvature is greatest to there, and one sample on.
+fn close(runs: &mut Vec<Vec<(f64, f64)>>, turn: f64) {
+    let later = |(u, value): &(f64, f64)| (u + turn, *value);
+    if let [around] = runs.as_mut_slice() {
+        // The end is the start.
+        around.pop();
+        let numbered = around.iter().enumerate();
+        let greatest = numbered.max_by(|(_, a), (_, b)| a.1.total_cmp(&b.1));
+        let first = greatest.map_or(0, |(index, _)| index);
+        around.rotate_left(first);
+        let moved = around.len() - first;
+        for (u, _) in around.iter_mut().skip(moved) {
+            *u += turn;
+        }
+        let again: Vec<(f64, f64)> = around.iter().take(2).map(later).collect();
+        around.extend(again);
+    } else if let Some(last) = runs.pop()
+        && let Some(first) = runs.first_mut()
+    {
+        let begin = first.iter().skip(1).map(later);
+        *first = last.into_iter().chain(begin).collect();
+    }
+}
+
+/// The extrema once around a closed curve, from where the curvature is greatest to there, and one sample on.
+fn extrema_around(
+    points: &[(f64, f64)],
+    noise: f64,
+    sampled: SampledCurve<'_>,
+) -> Vec<SampledFeature> {
+    let end = points.len().saturating_sub(1);
+    let mut features = extrema(points.get(..end).unwrap_or_default(), noise, sampled);
+    if !features.is_empty() {
+        let greatest = end.saturating_sub(1);
+        features.extend(extremum(SampledKind::Maximum, points, greatest, sampled));
+    }
+    features
+}
+
+/// A parameter of a closed curve as one from its start on and before its end.
+fn wrapped(turn: f64, u: f64) -> f64 {
+    match u < turn * (1.0 - 2.0 * f64::EPSILON) {
+        true => u,
+        false => (u - turn).max(0.0),
+    }
+}
+
+/// The jet at a parameter, which may be beyond the end of a closed curve.
+fn jet(sampled: SampledCurve<'_>, u: f64) -> Jet {
+    let turn = sampled.curve.pieces() as f64;
+    sampled.curve.jet(if u > turn { u - turn } else { u })
 }
 
 /// The samples between the cusps: those within a step of one count for nothing.
@@ -100,7 +185,7 @@ fn curvatures(sampled: SampledCurve<'_>) -> Vec<(f64, f64)> {
 
 fn curvature_at(sampled: SampledCurve<'_>, u: f64) -> f64 {
     let planar = sampled.samples.is_planar();
-    sampled.curve.jet(u).curvature_of(planar)
+    jet(sampled, u).curvature_of(planar)
 }
 
 /// The turns of a sequence: where it has risen by more than `noise` above what comes next, or
@@ -155,7 +240,7 @@ fn extremum(
         -1.0
     };
     let u = bisected([before.0, after.0], |u| {
-        sign * sampled.curve.jet(u).curvature_slope(planar)
+        sign * jet(sampled, u).curvature_slope(planar)
     });
     let curvature = curvature_at(sampled, u);
     Some(SampledFeature { kind, u, curvature })
