@@ -199,14 +199,21 @@ fn near(
         None => LEAST.map(|least| own.clamp(least, MAX_DEGREE)).to_vec(),
     };
     degrees.dedup();
-    let goal = Goal {
-        tolerance,
-        spacing: None,
-        most_segments: MOST_SEGMENTS,
-    };
     let mut best: Option<Approximated> = None;
     let mut refused = OperationError::Cancelled;
     for (index, degree) in degrees.iter().enumerate() {
+        // With more vertices than a polygon that is good enough has another degree is no gain.
+        let is_good = |it: &&Approximated| it.distance() <= tolerance && it.is_equivalent();
+        let fewer = best.as_ref().filter(is_good);
+        let fewer = fewer.map(|it| it.polygon.vertices().len().saturating_sub(degree + 1));
+        let goal = Goal {
+            tolerance,
+            spacing: None,
+            most_segments: fewer.map_or(MOST_SEGMENTS, |fewer| fewer.min(MOST_SEGMENTS)),
+        };
+        if goal.most_segments == 0 {
+            continue;
+        }
         let asked = ApproximationRequest {
             degree: *degree,
             placing: Placing::Quasi,

@@ -3,6 +3,7 @@
 //! It is evaluated by de Boor's recurrence on its own knots, for power series of numbers and of bounds alike.
 
 use std::f64::consts::FRAC_PI_4;
+use std::ops::{Add, Mul};
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -160,8 +161,56 @@ impl Nurbs {
 
     /// The point at t and its derivatives by t, by the polynomials that hold around `about`.
     pub(super) fn derivatives_beside(&self, about: f64, t: f64, order: usize) -> Vec<DVec3> {
-        let series = self.series(self.span_at(about), &PowerSeries::parameter(t, order));
-        PowerSeries::derivatives(series.each_ref())
+        let knot = self.span_at(about);
+        let mut values = self.taylor(knot, t, order, |index| {
+            let point = self.points[index];
+            self.weights.as_ref().map_or(point, |it| it[index] * point)
+        });
+        if let Some(weights) = &self.weights {
+            let below = self.taylor(knot, t, order, |index| weights[index]);
+            divide(&mut values, &below);
+        }
+        let mut factorial = 1.0;
+        for (order, value) in values.iter_mut().enumerate() {
+            factorial *= order.max(1) as f64;
+            *value *= factorial;
+        }
+        values
+    }
+
+    /// The coefficients of the series about t of control values between a knot and the next: [`Nurbs::series`] for
+    /// numbers, without an allocation at each step of the recurrence.
+    fn taylor<V: Copy + Default + Add<Output = V> + Mul<f64, Output = V>>(
+        &self,
+        knot: usize,
+        t: f64,
+        order: usize,
+        control: impl Fn(usize) -> V,
+    ) -> Vec<V> {
+        let (n, at) = (self.degree, |index: usize| self.knots[index]);
+        let length = order + 1;
+        let mut values = vec![V::default(); (n + 1) * length];
+        for index in 0..=n {
+            values[index * length] = control(knot - n + index);
+        }
+        for round in 1..=n {
+            // So many derivatives are not 0 after it.
+            let highest = order.min(round);
+            for index in (round..=n).rev() {
+                let low = at(knot + index - n);
+                let high = at(knot + index + 1 - round);
+                let scale = 1.0 / (high - low);
+                let (up, down) = ((t - low) * scale, (high - t) * scale);
+                let (before, rest) = values.split_at_mut(index * length);
+                let (before, own) = (&before[(index - 1) * length..], &mut rest[..length]);
+                for k in (1..=highest).rev() {
+                    let falling = before[k] * down + before[k - 1] * -scale;
+                    own[k] = falling + (own[k] * up + own[k - 1] * scale);
+                }
+                own[0] = before[0] * down + own[0] * up;
+            }
+        }
+        values.split_off(n * length)
     }
 
     /// The point at t and its derivatives by t; at a knot the later part counts.
@@ -251,6 +300,16 @@ impl Nurbs {
         let directions: Vec<DVec3> = directions.collect();
         let pairs = directions.windows(2);
         pairs.map(|pair| pair[0].angle_between(pair[1])).sum()
+    }
+}
+
+/// Divide a series by another one, as [`PowerSeries`] does.
+fn divide(series: &mut [DVec3], below: &[f64]) {
+    let inverse = 1.0 / below[0];
+    series[0] /= below[0];
+    for k in 1..series.len() {
+        let known = (1..=k).map(|j| below[j] * series[k - j]);
+        series[k] = (series[k] - known.sum::<DVec3>()) * inverse;
     }
 }
 
