@@ -372,8 +372,7 @@ impl App {
             told(self.editor.answer_files(answer.map(FileAnswer::Columns)));
         }
         let question = self.editor.filing().import_question();
-        let unit = self.editor.document().unit();
-        match self.import.show(context, question, unit) {
+        match self.import.show(context, question, self.editor.document()) {
             Some(ImportAnswer::Cancel) => told(self.editor.answer_files(None)),
             Some(ImportAnswer::Take(choices)) => {
                 told(self.editor.answer_files(Some(FileAnswer::Import(choices))));

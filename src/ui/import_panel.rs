@@ -12,7 +12,7 @@ use super::keyboard::{self, Typing};
 use super::number_field::NumberField;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::{figures, widgets};
-use crate::document::quoted;
+use crate::document::{Document, quoted};
 use crate::editor::{FoundFile, ImportQuestion};
 use crate::geometry::counted;
 use crate::geometry::expressions::LengthUnit;
@@ -57,22 +57,24 @@ pub struct ImportPanel {
 }
 
 impl ImportPanel {
-    /// Ask what to take, for a document with a unit. Returns the answer once there is one.
+    /// Ask what to take for a document. Returns the answer once there is one.
     pub fn show(
         &mut self,
         context: &Context,
         question: Option<&ImportQuestion>,
-        receiving: Option<LengthUnit>,
+        document: &Document,
     ) -> Option<ImportAnswer> {
         let Some(question) = question else {
             self.is_open = false;
             return None;
         };
-        let receiving = receiving.filter(|_| !question.replaces);
+        let is_alone = question.replaces || document.is_empty();
+        let receiving = document.unit().filter(|_| !question.replaces);
         let is_new = !std::mem::replace(&mut self.is_open, true);
         if is_new {
             let files = question.files.iter();
-            self.choices = files.map(|file| first_choice(file, receiving)).collect();
+            let first = |file| first_choice(file, receiving, is_alone);
+            self.choices = files.map(first).collect();
         }
         widgets::modal(context, "import", ImportAnswer::Cancel, |ui| {
             ui.set_width(WIDTH.min(context.content_rect().width() - 16.0 * STEP));
@@ -249,15 +251,17 @@ impl ImportPanel {
     }
 }
 
-/// What is taken at first, in the unit of the document where the file says none.
-fn first_choice(file: &FoundFile, receiving: Option<LengthUnit>) -> ImportChoice {
+/// What is taken at first, where the file says no unit in that of the document. Alone in a document it is in a
+/// likely one; beside curves without a unit it has none either.
+fn first_choice(file: &FoundFile, receiving: Option<LengthUnit>, is_alone: bool) -> ImportChoice {
     let choice = file.choice.clone();
-    ImportChoice {
-        unit: choice
-            .unit
-            .or(receiving.filter(|_| file.found.unit.is_none())),
-        ..choice
-    }
+    let is_asked = file.found.unit.is_none() && !file.found.is_unitless;
+    let likely = || {
+        let likely = is_alone.then(|| file.found.likely_unit(&choice));
+        receiving.or(likely.flatten())
+    };
+    let unit = choice.unit.or_else(|| is_asked.then(likely).flatten());
+    ImportChoice { unit, ..choice }
 }
 
 fn name_of(path: &Path) -> String {

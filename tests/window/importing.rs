@@ -1,5 +1,8 @@
 //! The import panel.
 
+use batten::editor::Editor;
+use batten::geometry::expressions::LengthUnit;
+use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 
 use super::files::drop_file;
@@ -40,6 +43,23 @@ fn layers_kinds_and_units_of_a_drawing_are_chosen_before_it_comes_in() {
     click(&mut window, "Import");
     assert_eq!(references(&window), 2);
     window.get_by_label_contains("1 item not chosen, left out");
+}
+
+#[test]
+fn enter_takes_the_likely_unit() {
+    for (scale, unit) in [(1.0, LengthUnit::Millimetre), (0.001, LengthUnit::Metre)] {
+        let mut editor = Editor::default();
+        editor.begin_empty();
+        let mut window = open_window_with(editor, 1000.0, 700.0);
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("hull.dxf");
+        let lines = LINES.map(|(layer, [x, y])| (layer, [scale * x, scale * y]));
+        std::fs::write(&path, dxf(None, &lines, 0)).expect("the file");
+        drop_file(&mut window, &path);
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        assert_eq!(references(&window), 3);
+        assert_eq!(window.state().editor().document().unit(), Some(unit));
+    }
 }
 
 #[test]

@@ -234,6 +234,17 @@ impl Found {
         })
     }
 
+    /// The unit that a file which says none is most likely in: metres if nothing that is taken is as large as 1,
+    /// otherwise millimetres.
+    pub fn likely_unit(&self, choice: &ImportChoice) -> Option<LengthUnit> {
+        let [low, high] = self.bounds(choice)?;
+        let size = (high - low).max_element();
+        Some(match size < 1.0 {
+            true => LengthUnit::Metre,
+            false => LengthUnit::Millimetre,
+        })
+    }
+
     /// List the units that a file which says none may be in, each with the size that what is taken then has: in that
     /// unit, and in that of the document that receives it, or in millimetres.
     pub fn unit_offers(
