@@ -303,6 +303,8 @@ pub(super) enum Task {
         density: Density,
         /// The name of the curve that was chosen.
         curve: Option<String>,
+        /// The option that chooses it.
+        option: &'static str,
     },
     /// Compare two curves or references.
     Compare {
@@ -395,7 +397,8 @@ impl Arguments {
                         source,
                         destination,
                         density,
-                        curve: None,
+                        curve: export.item().map(str::to_owned),
+                        option: "--item",
                     },
                     None => Task::Convert {
                         source,
@@ -432,6 +435,7 @@ impl Arguments {
                     }
                 },
                 curve,
+                option: "--curve",
             },
             Some(Command::Compare {
                 a,

@@ -38,6 +38,11 @@ pub(super) struct ExportArguments {
 }
 
 impl ExportArguments {
+    /// The item that is named, or the first of several.
+    pub(super) fn item(&self) -> Option<&str> {
+        self.items.first().map(String::as_str)
+    }
+
     /// The choice that the options make, with the items that are named; `None` without an option.
     ///
     /// # Errors

@@ -100,7 +100,8 @@ pub fn run(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> 
             destination,
             density,
             curve,
-        }) => points::run(&source, &destination, density, curve.as_deref()),
+            option,
+        }) => points::run(&source, &destination, density, (curve.as_deref(), option)),
         Ok(Task::Compare { compared, limit }) => {
             return Request::Done(exit_code(compare::run(compared.each_ref(), limit)));
         }

@@ -22,7 +22,7 @@ pub(super) enum Density {
     Tolerance(f64),
 }
 
-/// Write points on a curve or reference of a file, and say how near to it the polyline through them is.
+/// Write points on a curve or reference of a file, chosen by its name with an option, and say how near to it the polyline through them is.
 ///
 /// # Errors
 /// If the source cannot be read, no curve is chosen, or the destination cannot be written.
@@ -30,11 +30,11 @@ pub(super) fn run(
     source: &Source,
     destination: &Destination,
     density: Density,
-    name: Option<&str>,
+    (name, option): (Option<&str>, &str),
 ) -> anyhow::Result<()> {
     let format = destination.format()?;
     let document = source.document(None, &Messages::Printed)?;
-    let id = only(&document, name, "--curve").with_context(|| source.name())?;
+    let id = only(&document, name, option).with_context(|| source.name())?;
     let curve: &dyn ParametricCurve = match (document.curve(id), document.reference(id)) {
         (Some(curve), _) => &curve.polygon,
         (None, Some(reference)) => &reference.curve,
