@@ -41,7 +41,7 @@ def in_space(points):
     return np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
 
 
-def curve_points(curve):
+def curve_points(curve, samples=SAMPLES):
     """Evaluate a curve from its float polygon."""
     degree = curve["degree"]
     vertices = in_space(curve["float"])
@@ -50,7 +50,7 @@ def curve_points(curve):
     if curve["periodic"]:
         homogeneous = np.concatenate([homogeneous, homogeneous[:degree]])
     knots = np.arange(len(homogeneous) + degree + 1, dtype=float) - degree
-    values = BSpline(knots, homogeneous, degree)(np.linspace(*curve["domain"], SAMPLES))
+    values = BSpline(knots, homogeneous, degree)(np.linspace(*curve["domain"], samples))
     return values[:, :3] / values[:, 3:]
 
 
