@@ -33,4 +33,4 @@ pub use merging::{Merge, MergeError, UnitRemark};
 pub use names::free_name;
 pub use reference::Reference;
 pub use renumbering::{ParameterSpan, Renumbering};
-pub use wording::{cut, escaped, quoted};
+pub use wording::{cut, escaped, first_quoted, quoted};

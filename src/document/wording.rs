@@ -1,11 +1,30 @@
 //! Text of others in messages: names, and what stands in files.
 
+use crate::geometry::counted;
+
+/// So many items are named; their count stands for the others.
+const MOST_NAMED: usize = 3;
+
 /// The most characters of a text that a message shows.
 const LONGEST: usize = 60;
 
 /// Put text of others into quotation marks for a message: [cut](cut) and escaped.
 pub fn quoted(text: &str) -> String {
     format!("“{}”", cut(text))
+}
+
+/// Name the first of some items for a message, and count the others: “a”, “b”, “c” and 57 others.
+pub fn first_quoted(names: &[&str]) -> String {
+    let mut texts: Vec<String> = names.iter().take(MOST_NAMED).map(|it| quoted(it)).collect();
+    let others = names.len().saturating_sub(MOST_NAMED);
+    if others > 0 {
+        texts.push(counted(others, "other", "others"));
+    }
+    let last = texts.pop().unwrap_or_default();
+    match texts.is_empty() {
+        true => last,
+        false => format!("{} and {last}", texts.join(", ")),
+    }
 }
 
 /// Make text of others fit for a message: [escaped](escaped), and cut after 60 characters.
@@ -54,6 +73,16 @@ mod tests {
             assert_eq!(quoted(&format!("a{mark}b")), expected);
         }
         assert_eq!(quoted("Rücken 曲线 קו"), "“Rücken 曲线 קו”");
+    }
+
+    #[test]
+    fn the_first_are_named_and_the_others_counted() {
+        assert_eq!(first_quoted(&["a"]), "“a”");
+        assert_eq!(first_quoted(&["a", "b", "c"]), "“a”, “b” and “c”");
+        assert_eq!(
+            first_quoted(&["a", "b", "c", "d", "e"]),
+            "“a”, “b”, “c” and 2 others"
+        );
     }
 
     #[test]

@@ -16,6 +16,7 @@ use super::fingerprint::Fingerprint;
 use super::format::Format;
 use super::formats;
 use super::loss::{Export, LossReport};
+use super::original::Original;
 use super::reading::Reading;
 use super::table_columns::ColumnChoice;
 use crate::document::Document;
@@ -58,6 +59,15 @@ pub fn read_with_fingerprint(
     let reading = format.read_columns(&bytes, choice);
     let reading = reading.map_err(FileError::at(path))?;
     Ok((reading, Fingerprint::of(&bytes)))
+}
+
+/// Keep the bytes of a file of another program with the document that was read from it; `None` if it is no such file, or
+/// holds something else by now.
+pub fn original(path: &Path, known: Fingerprint, document: &Document) -> Option<Original> {
+    let format = formats::to_read(path).ok().filter(|it| it.draws())?;
+    let bytes = read_bytes(path).ok()?;
+    let is_known = Fingerprint::of(&bytes) == known;
+    is_known.then(|| Original::new(format, bytes, document.clone()))
 }
 
 /// Read everything that a file of another program holds, with its format; `format` is one that is given, whatever the

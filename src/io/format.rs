@@ -4,6 +4,7 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 
 use super::error::{Place, Problem, ReadError, WriteError};
+use super::exchange::changes::Rewriter;
 use super::exchange::drawing::{Drawing, Unreadable};
 use super::loss::{Export, LossReport};
 use super::reading::Reading;
@@ -31,6 +32,9 @@ pub struct Format {
     /// Writes a document back to a file that was read, where that differs from `write`: without what an export adds
     /// beside the curves.
     pub(super) write_back: Option<WriteDocument>,
+    /// Writes changes into the text of a file that was read, and leaves everything else as it was; `None` if the format
+    /// does not allow it.
+    pub(super) rewrite: Option<Rewriter>,
     /// Whether its lengths have no unit at all, as in glyphs.
     pub(super) is_unitless: bool,
     /// Whether it holds matches and unknown keys; then a document can be saved in it.

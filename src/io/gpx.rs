@@ -20,6 +20,7 @@ pub static GPX: Format = Format {
     draw: None,
     write: None,
     write_back: None,
+    rewrite: None,
     is_unitless: false,
     holds_documents: false,
     exports: &[],

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::document::{Curve, Document, Group, Reference, quoted};
+use crate::document::{Curve, Document, Group, Reference, first_quoted, quoted};
 use crate::geometry::{End, PolygonKind, counted, rounded_up};
 
 /// Hold the bytes of a file to write, and their losses.
@@ -14,7 +14,8 @@ pub struct Export {
     pub losses: LossReport,
 }
 
-/// List the losses of a written file. Shown as one line a loss.
+/// List the losses of a written file. Shown as one line for each kind of loss, with the names of the first curves that
+/// have it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LossReport {
     /// The name of the file's format.
@@ -56,6 +57,25 @@ pub enum Loss {
     PointWeights,
     /// A curve as a whole.
     Curve,
+    /// A curve or a reference as a whole, because of its shape.
+    LeftOut {
+        /// The shape, as "a spline of degree 9".
+        what: String,
+        /// Whether it is a curve.
+        is_curve: bool,
+    },
+    /// A change of the name, the group or the colour: the file that is written back keeps its own.
+    Kept {
+        /// What it keeps.
+        what: &'static str,
+    },
+    /// That it is a basic shape, as a circle: it is written as a path.
+    AsPath {
+        /// The element that it was.
+        element: String,
+    },
+    /// The attributes of the points of a contour.
+    PointAttributes,
     /// That an end is kept matched to another curve.
     Match {
         /// The end.
@@ -108,6 +128,34 @@ impl LossReport {
     /// Whether nothing is lost.
     pub fn is_empty(&self) -> bool {
         self.losses.is_empty() && !self.project_keys
+    }
+
+    /// How many curves and references are not written at all.
+    pub fn left_out(&self) -> [usize; 2] {
+        let is_left_out = |loss: &Loss, of_curves: bool| match loss {
+            Loss::Curve => of_curves,
+            Loss::Reference => !of_curves,
+            Loss::LeftOut { is_curve, .. } => *is_curve == of_curves,
+            _ => false,
+        };
+        [true, false].map(|of_curves| {
+            let losses = self.losses.iter();
+            losses
+                .filter(|(_, loss)| is_left_out(loss, of_curves))
+                .count()
+        })
+    }
+
+    /// Which curve or reference was left out first because of its shape, and why.
+    pub(super) fn first_left_out(&self) -> Option<String> {
+        self.losses.iter().find_map(|(name, loss)| match loss {
+            Loss::LeftOut { what, .. } => Some(format!(
+                "{} is {what}, which {} cannot hold",
+                quoted(name),
+                self.format
+            )),
+            _ => None,
+        })
     }
 
     /// Add a loss of one curve.
@@ -183,64 +231,201 @@ impl LossReport {
 impl fmt::Display for LossReport {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let format = self.format;
-        let lost = |what: &str| format!("{what} stored in the {format}");
-        let of_curves = self.losses.iter().map(|(name, loss)| {
-            let text = match loss {
-                Loss::Name { written } => {
-                    let written = quoted(written);
-                    format!("the name is written as {written}, which {format} allows")
-                }
-                Loss::NoName => lost("the name of a curve in a group isn't"),
-                Loss::Group { written: None } => lost("the group isn't"),
-                Loss::Group {
-                    written: Some(written),
-                } => {
-                    let written = quoted(&written.to_string());
-                    format!("the group is written as {written}, which {format} allows")
-                }
+        let mut groups: Vec<Alike> = Vec::new();
+        for (name, loss) in &self.losses {
+            if !groups.iter_mut().any(|group| group.takes(name, loss)) {
+                groups.push(Alike::new(name, loss));
+            }
+        }
+        let of_curves = groups.iter().map(|group| {
+            format!(
+                "{}: {}",
+                first_quoted(&group.names),
+                group.loss.text(format, group.differs)
+            )
+        });
+        let of_project = self
+            .project_keys
+            .then(|| format!("the project's unknown keys aren't stored in the {format}"));
+        let lines: Vec<String> = of_curves.chain(of_project).collect();
+        formatter.write_str(&lines.join("\n"))
+    }
+}
+
+/// Losses of one kind, told in one line.
+struct Alike<'l> {
+    names: Vec<&'l str>,
+    /// The loss, with the largest figures of all.
+    loss: Loss,
+    /// Whether they differ in names.
+    differs: bool,
+}
+
+impl<'l> Alike<'l> {
+    fn new(name: &'l str, loss: &Loss) -> Self {
+        Self {
+            names: vec![name],
+            loss: loss.clone(),
+            differs: false,
+        }
+    }
+
+    /// Add a loss of the same kind. Returns whether it is one.
+    fn takes(&mut self, name: &'l str, loss: &Loss) -> bool {
+        match (&mut self.loss, loss) {
+            (
                 Loss::Digits {
                     kind,
                     distance,
                     curve,
-                } => format!(
-                    "converted back from the {kind} polygon written, the float vertices are off by up to {}, the curve by up to {}",
-                    rounded_up(*distance),
-                    rounded_up(*curve)
-                ),
-                Loss::NoWayBack { kind } => {
-                    format!("the {kind} polygon written cannot be converted back to a float polygon")
-                }
-                Loss::Cubics { count, off } => {
-                    let cubics = counted(*count, "cubic Bézier", "cubic Béziers");
-                    format!("written as {cubics}, up to {} off", rounded_up(*off))
-                }
-                Loss::Periodic => {
-                    "written as an open curve that ends where it begins"
-                        .to_owned()
-                }
-                Loss::PolygonWeights { kind } => {
-                    format!("the {kind} polygon is drawn without its weights")
-                }
-                Loss::Reference => lost("references aren't"),
-                Loss::PointWeights => lost("weights of points aren't"),
-                Loss::Curve => lost("curves aren't"),
-                Loss::Colour => lost("the colour isn't"),
-                Loss::Hidden => lost("visibility isn't"),
-                Loss::Locked => lost("the lock isn't"),
-                Loss::LockedVertices => lost("vertex locks aren't"),
-                Loss::Targets => lost("end targets aren't"),
-                Loss::Match { end, source } => {
-                    let (end, source) = (end.name(), quoted(source));
-                    lost(&format!("the match of its {end} to {source} isn't"))
-                }
-                Loss::UnknownKeys => lost("unknown keys aren't"),
-            };
-            format!("{}: {text}", quoted(name))
-        });
-        let of_project = self
-            .project_keys
-            .then(|| lost("the project's unknown keys aren't"));
-        let lines: Vec<String> = of_curves.chain(of_project).collect();
-        formatter.write_str(&lines.join("\n"))
+                },
+                Loss::Digits {
+                    kind: other,
+                    distance: farther,
+                    curve: off,
+                },
+            ) if kind == other => {
+                *distance = distance.max(*farther);
+                *curve = curve.max(*off);
+            }
+            (
+                Loss::Cubics { count, off },
+                Loss::Cubics {
+                    count: more,
+                    off: farther,
+                },
+            ) => {
+                *count += more;
+                *off = off.max(*farther);
+            }
+            (Loss::Name { written }, Loss::Name { written: other }) => {
+                self.differs |= written != other;
+            }
+            (
+                Loss::Group {
+                    written: Some(written),
+                },
+                Loss::Group {
+                    written: Some(other),
+                },
+            ) => self.differs |= written != other,
+            (own @ Loss::Match { .. }, Loss::Match { .. }) => self.differs |= own != loss,
+            (own, _) if own == loss => {}
+            _ => return false,
+        }
+        if self.names.last() != Some(&name) {
+            self.names.push(name);
+        }
+        true
+    }
+}
+
+impl Loss {
+    /// What is lost in a format; `differs` where curves lose it with different names.
+    fn text(&self, format: &str, differs: bool) -> String {
+        let lost = |what: &str| format!("{what} stored in the {format}");
+        match self {
+            Self::Name { .. } if differs => format!("names are written as {format} allows"),
+            Self::Name { written } => {
+                let written = quoted(written);
+                format!("the name is written as {written}, which {format} allows")
+            }
+            Self::NoName => lost("the name of a curve in a group isn't"),
+            Self::Group { written: None } => lost("the group isn't"),
+            Self::Group { .. } if differs => format!("groups are written as {format} allows"),
+            Self::Group {
+                written: Some(written),
+            } => {
+                let written = quoted(&written.to_string());
+                format!("the group is written as {written}, which {format} allows")
+            }
+            Self::Digits {
+                kind,
+                distance,
+                curve,
+            } => format!(
+                "converted back from the {kind} polygon written, the float vertices are off by up to {}, the curve by up to {}",
+                rounded_up(*distance),
+                rounded_up(*curve)
+            ),
+            Self::NoWayBack { kind } => {
+                format!("the {kind} polygon written cannot be converted back to a float polygon")
+            }
+            Self::Cubics { count, off } => {
+                let cubics = counted(*count, "cubic Bézier", "cubic Béziers");
+                format!("written as {cubics}, up to {} off", rounded_up(*off))
+            }
+            Self::Periodic => "written as an open curve that ends where it begins".to_owned(),
+            Self::PolygonWeights { kind } => {
+                format!("the {kind} polygon is drawn without its weights")
+            }
+            Self::Reference => lost("references aren't"),
+            Self::PointWeights => lost("weights of points aren't"),
+            Self::Curve => lost("curves aren't"),
+            Self::LeftOut { what, .. } => {
+                format!("left out: {what}, which {format} cannot hold")
+            }
+            Self::Kept { what } => format!("the {format} keeps the old {what}"),
+            Self::AsPath { element } => format!("the {element} becomes a path"),
+            Self::PointAttributes => "names and smoothness of its points are lost".to_owned(),
+            Self::Colour => lost("the colour isn't"),
+            Self::Hidden => lost("visibility isn't"),
+            Self::Locked => lost("the lock isn't"),
+            Self::LockedVertices => lost("vertex locks aren't"),
+            Self::Targets => lost("end targets aren't"),
+            Self::Match { .. } if differs => lost("matches of ends aren't"),
+            Self::Match { end, source } => {
+                let (end, source) = (end.name(), quoted(source));
+                lost(&format!("the match of its {end} to {source} isn't"))
+            }
+            Self::UnknownKeys => lost("unknown keys aren't"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn losses_of_one_kind_are_one_line_with_the_first_names_and_the_largest_figures() {
+        let mut report = LossReport::new("SVG");
+        for index in 1..=60 {
+            let name = format!("c{index}");
+            report.losses.push((name.clone(), Loss::Colour));
+            let (count, off) = (index, f64::from(index as u8) / 1024.0);
+            report.losses.push((name, Loss::Cubics { count, off }));
+        }
+        let written = |name: &str| Loss::Name {
+            written: name.to_owned(),
+        };
+        report.losses.push(("a/b".to_owned(), written("a_b")));
+        assert_eq!(
+            report.to_string(),
+            "“c1”, “c2”, “c3” and 57 others: the colour isn't stored in the SVG\n\
+             “c1”, “c2”, “c3” and 57 others: written as 1830 cubic Béziers, up to 0.059 off\n\
+             “a/b”: the name is written as “a_b”, which SVG allows"
+        );
+        report.losses.push(("c/d".to_owned(), written("c_d")));
+        let told = report.to_string();
+        assert!(
+            told.ends_with("\n“a/b” and “c/d”: names are written as SVG allows"),
+            "{told}"
+        );
+    }
+
+    #[test]
+    fn what_is_not_written_is_counted() {
+        let mut report = LossReport::new("SVG");
+        let left_out = |is_curve| Loss::LeftOut {
+            what: "a spline of degree 9".to_owned(),
+            is_curve,
+        };
+        for loss in [Loss::Curve, left_out(true), Loss::Reference, Loss::Colour] {
+            report.losses.push(("a".to_owned(), loss));
+        }
+        assert_eq!(report.left_out(), [2, 1]);
+        let why = "“a” is a spline of degree 9, which SVG cannot hold";
+        assert_eq!(report.first_left_out().as_deref(), Some(why));
     }
 }

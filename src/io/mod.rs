@@ -24,6 +24,7 @@ pub mod json_layout;
 mod layer_names;
 mod loss;
 mod object;
+mod original;
 mod point_table;
 mod polygon;
 mod project;
@@ -55,6 +56,7 @@ pub use fingerprint::Fingerprint;
 pub use format::{ExportRow, Exporter, Format};
 pub use gpx::GPX;
 pub use loss::{Export, Loss, LossReport};
+pub use original::{Original, Rest, WrittenBack};
 pub use point_table::POINT_TABLE;
 pub use project::PROJECT;
 pub use reading::{Owner, Reading, Remark, Remarks, counted_items};
@@ -65,5 +67,7 @@ pub use table_columns::ColumnChoice;
 
 #[cfg(test)]
 mod groups;
+#[cfg(test)]
+mod originals;
 #[cfg(test)]
 mod units;

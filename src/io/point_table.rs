@@ -27,6 +27,7 @@ pub static POINT_TABLE: Format = Format {
     draw: None,
     write: Some(write),
     write_back: None,
+    rewrite: None,
     is_unitless: false,
     holds_documents: false,
     exports: &[],

@@ -36,6 +36,7 @@ pub static PROJECT: Format = Format {
     read: Some(read),
     write: Some(write),
     write_back: None,
+    rewrite: None,
     read_chosen: None,
     draw: None,
     is_unitless: false,

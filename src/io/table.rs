@@ -51,6 +51,7 @@ pub static TABLE: Format = Format {
     draw: None,
     write: Some(write),
     write_back: None,
+    rewrite: None,
     is_unitless: false,
     holds_documents: false,
     exports: &[
@@ -79,6 +80,7 @@ pub static TAB_TABLE: Format = Format {
     draw: None,
     write: Some(write_with_tabs),
     write_back: None,
+    rewrite: None,
     is_unitless: false,
     holds_documents: false,
     exports: &[],

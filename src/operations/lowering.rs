@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::degree::{Goal, changed_features, fewest};
 use super::error::OperationError;
-use crate::document::{Curve, Document, quoted};
+use crate::document::{Curve, Document, first_quoted, quoted};
 use crate::geometry::{BezierPolygon, Progress, counted, rounded_up};
 
 /// The tolerance without a wish, in units of a curve's size.
@@ -53,6 +53,44 @@ impl fmt::Display for Lowered {
             rounded_up(self.deviation),
         )
     }
+}
+
+/// So many curves are told of one by one.
+const FEW: usize = 3;
+
+/// Tell of curves that got a lower degree: of many in one line for each kind, with the largest deviation.
+pub fn told_of_lowered(lowered: &[Lowered]) -> Vec<String> {
+    if lowered.len() <= FEW {
+        return lowered.iter().map(ToString::to_string).collect();
+    }
+    let kinds = [
+        (true, false, ""),
+        (true, true, "; inflections or curvature extrema differ"),
+        (false, false, ", which is more than the tolerance"),
+        (
+            false,
+            true,
+            ", which is more than the tolerance; inflections or curvature extrema differ",
+        ),
+    ];
+    let lines = kinds.into_iter().filter_map(|(is_within, differs, told)| {
+        let alike = lowered
+            .iter()
+            .filter(|it| it.is_within == is_within && it.changed.is_some() == differs);
+        let alike: Vec<&Lowered> = alike.collect();
+        let names: Vec<&str> = alike.iter().map(|it| it.name.as_str()).collect();
+        let becomes = alike.first()?.lowered;
+        let most = alike.iter().map(|it| it.degree).max().unwrap_or_default();
+        let vertices: usize = alike.iter().map(|it| it.vertices).sum();
+        let off = alike.iter().map(|it| it.deviation).fold(0.0, f64::max);
+        Some(format!(
+            "{}: degrees up to {most} become {becomes}, {} in all, off by at most {}{told}",
+            first_quoted(&names),
+            counted(vertices, "vertex", "vertices"),
+            rounded_up(off),
+        ))
+    });
+    lines.collect()
 }
 
 /// Give all curves of a higher degree than `most` that degree, with the fewest vertices within a tolerance (without one
@@ -106,4 +144,33 @@ pub fn lowered(
     let references = references.map(|(_, it)| it.as_ref().clone());
     let lowered = Document::from_curves(curves).with_references(references);
     Ok((lowered.with_unit(document.unit()), told))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_curves_are_told_of_by_kind() {
+        let lowered = |index: usize| Lowered {
+            name: format!("c{index}"),
+            degree: 5 + index % 5,
+            lowered: 3,
+            vertices: 10,
+            deviation: index as f64,
+            is_within: true,
+            changed: (index == 6).then_some([[0, 1], [0, 3]]),
+        };
+        let all: Vec<Lowered> = (1..=6).map(lowered).collect();
+        assert_eq!(
+            told_of_lowered(&all),
+            [
+                "“c1”, “c2”, “c3” and 2 others: degrees up to 9 become 3, 50 vertices in all, off by at most 5",
+                "“c6”: degrees up to 6 become 3, 10 vertices in all, off by at most 6; \
+                 inflections or curvature extrema differ",
+            ]
+        );
+        let few: Vec<String> = all[..2].iter().map(ToString::to_string).collect();
+        assert_eq!(told_of_lowered(&all[..2]), few);
+    }
 }

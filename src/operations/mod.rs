@@ -50,7 +50,7 @@ pub use features::{FeatureComparison, FeatureCounts};
 pub use floats::{FloatRequest, floated};
 pub use handle::{Handle, OnCurve, Sets};
 pub use inputs::Inputs;
-pub use lowering::{Lowered, lowered};
+pub use lowering::{Lowered, lowered, told_of_lowered};
 pub use operands::Operands;
 pub use operation::Operation;
 pub use outcome::{Annotation, Deviation, Figure, Outcome};

@@ -7,8 +7,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use batten::io::disk;
+use batten::document::{CurveId, Document, Edit};
+use batten::geometry::references::Placement;
 use batten::io::exchange::drawing::{Drawing, Kind, Space};
+use batten::io::{Original, Rest, disk, formats};
+use glam::DVec3;
 use serde_json::Value;
 
 /// The longest that a file may take, in seconds.
@@ -131,4 +134,112 @@ fn every_file_holds_what_the_inventory_says() {
         "{}",
         complaints.join("\n")
     );
+}
+
+/// Of the size of a drawing: what its transforms cost there and back.
+const ROUNDING: f64 = 1e-12;
+
+/// How many items of a file are moved.
+const MOVED: usize = 12;
+
+/// A document with one curve or reference moved.
+fn moved(document: &Document, id: CurveId, by: DVec3) -> Document {
+    let edit = match (document.curve(id), document.reference(id)) {
+        (Some(curve), _) => {
+            let vertices = curve.polygon.vertices().iter().map(|vertex| vertex + by);
+            let moves = vertices.enumerate().collect();
+            Edit::MoveVertices { curve: id, moves }
+        }
+        (None, reference) => {
+            let own = &reference.expect("a reference").curve;
+            let placement = own.placement();
+            let to = placement.translation() + by;
+            let placement = Placement::new(placement.rotation(), placement.scale(), to);
+            let curve = own.clone().placed(placement.expect("a placement"));
+            Edit::SetReference {
+                reference: id,
+                curve,
+            }
+        }
+    };
+    document.edited([edit]).expect("an edit")
+}
+
+/// Points of a document's curves and references, sorted: what is read again may have other names and seams.
+fn places(document: &Document) -> Vec<[f64; 2]> {
+    let shapes = document.all_ids().filter_map(|id| document.shape(id));
+    let mut places: Vec<[f64; 2]> = shapes
+        .flat_map(|shape| {
+            let ends = [0.0, shape.pieces() as f64];
+            ends.map(|u| shape.jet(u).point).map(|it| [it.x, it.y])
+        })
+        .collect();
+    places.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    places
+}
+
+#[test]
+#[ignore = "needs the files; BATTEN_CORPUS names their folder"]
+fn what_is_not_edited_in_a_drawing_keeps_its_bytes() {
+    let folder = corpus();
+    let (mut files, mut kept, mut lost) = (0, 0, BTreeMap::<String, usize>::new());
+    for extension in ["svg", "glif"] {
+        let format = formats::find(extension).expect("a format");
+        let paths = std::fs::read_dir(folder.join(extension)).expect("the folder");
+        for path in paths.flatten().map(|it| it.path()) {
+            let bytes = std::fs::read(&path).expect("the file");
+            let Ok(reading) = format.read(&bytes) else {
+                continue;
+            };
+            files += 1;
+            let document = reading.into_document().expect("a document");
+            let original = Original::new(format, bytes.clone(), document.clone());
+            let same = original.written_back(&document).expect("the same file");
+            assert!(same.export.bytes == bytes, "{}", path.display());
+            let all: Vec<CurveId> = document.all_ids().collect();
+            let size = places(&document)
+                .iter()
+                .flatten()
+                .fold(1.0_f64, |size, it| size.max(it.abs()));
+            let step = all.len().div_ceil(MOVED).max(1);
+            for id in all.iter().copied().step_by(step) {
+                let name = document.name(id).expect("a name");
+                let place = format!("{}, {name}", path.display());
+                let edited = moved(&document, id, DVec3::new(0.25 * size, 0.125 * size, 0.0));
+                let written = match original.written_back(&edited) {
+                    Ok(written) => written,
+                    Err(error) => panic!("{place}: {error}"),
+                };
+                let why = match written.rest {
+                    Rest::Kept => None,
+                    Rest::Lost(why) => Some(why.expect("a reason")),
+                };
+                if let Some(why) = why {
+                    let kind = why.split('”').next_back().unwrap_or_default();
+                    *lost.entry(kind.to_owned()).or_default() += 1;
+                    continue;
+                }
+                kept += 1;
+                // All but one element is as it was.
+                let new = &written.export.bytes;
+                let start = bytes.iter().zip(new).take_while(|(a, b)| a == b).count();
+                let pairs = bytes.iter().rev().zip(new.iter().rev());
+                let end = pairs.take_while(|(a, b)| a == b).count();
+                let changed = bytes.get(start..bytes.len().saturating_sub(end));
+                let tags = changed.unwrap_or_default().iter();
+                let tags = tags.filter(|byte| **byte == b'<').count();
+                assert!(extension == "glif" || tags <= 1, "{place}: {tags} tags");
+                let again = format.read(new).expect("a drawing").into_document();
+                let again = places(&again.expect("a document"));
+                let expected = places(&edited);
+                assert_eq!(again.len(), expected.len(), "{place}");
+                for (a, b) in again.iter().zip(&expected) {
+                    let off = (a[0] - b[0]).abs();
+                    assert!(off <= ROUNDING * size, "{place}: {a:?} {b:?}");
+                }
+            }
+        }
+    }
+    println!("{files} files, {kept} edits in place, others: {lost:?}");
+    assert!(files > 0 && kept > 0);
 }

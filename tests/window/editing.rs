@@ -66,14 +66,18 @@ fn every_format_of_drawings_is_saved_back() {
         let edited = curve(&window);
 
         save(&mut window);
-        window.get_by_label(QUESTION);
-        window.get_by_label_contains("holds the curves alone");
-        assert_eq!(fs::read(&path).expect("the file"), before, "{extension}");
-        click(&mut window, "Cancel");
-        assert!(is_modified(&window) && !is_saved(&window), "{extension}");
+        // Only what was edited changes in the text of these.
+        if !matches!(extension, "svg" | "glif") {
+            window.get_by_label(QUESTION);
+            window.get_by_label_contains("holds the curves alone");
+            assert_eq!(fs::read(&path).expect("the file"), before, "{extension}");
+            click(&mut window, "Cancel");
+            assert!(is_modified(&window) && !is_saved(&window), "{extension}");
 
-        save(&mut window);
-        click(&mut window, "Save");
+            save(&mut window);
+            click(&mut window, "Save");
+        }
+        assert!(window.query_by_label(QUESTION).is_none(), "{extension}");
         assert!(!is_modified(&window) && is_saved(&window), "{extension}");
         let curves = disk::read_file(&path).expect("the file").curves;
         assert_eq!(curves.len(), 1, "{extension}");
@@ -87,6 +91,30 @@ fn every_format_of_drawings_is_saved_back() {
         assert!(window.query_by_label(QUESTION).is_none(), "{extension}");
         assert!(!is_modified(&window), "{extension}");
     }
+}
+
+#[test]
+fn everything_else_in_a_drawing_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("logo.svg");
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' width='9mm' height='9mm' viewBox='1 1 9 9'>\n\
+        <!-- stays --><text x='3'>Batten</text>\n<path d='M1 2C3 4 5 2 7 8' class=\"hull\"/></svg>";
+    fs::write(&path, text).expect("the file");
+    let mut window = moved(&path, false);
+    save(&mut window);
+    assert!(!is_modified(&window) && is_saved(&window));
+    let saved = fs::read_to_string(&path).expect("the file");
+    let [before, after] = text.split("M1 2C3 4 5 2 7 8").collect::<Vec<_>>()[..] else {
+        panic!("one path");
+    };
+    assert!(
+        saved != text && saved.starts_with(before) && saved.ends_with(after),
+        "{saved}"
+    );
+    // Undone, the file is what it was.
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    save(&mut window);
+    assert_eq!(fs::read_to_string(&path).expect("the file"), text);
 }
 
 #[test]

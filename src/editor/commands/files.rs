@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Document, Edit};
 use crate::editor::Editor;
+use crate::editor::jobs::edited_file::EditedFile;
 use crate::editor::jobs::file_reading::{FilesToRead, Purpose};
 use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork, Filing};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
@@ -192,8 +193,12 @@ impl Editor {
                 own,
                 text,
                 file,
+                original,
             } => {
                 let (path, fingerprint) = own.unzip();
+                if self.filing.edited().map(EditedFile::path) == path.as_deref() {
+                    self.filing.set_original(original);
+                }
                 self.replace(document, path);
                 self.workspace.set_fingerprint(fingerprint);
                 Ok(self
@@ -203,8 +208,12 @@ impl Editor {
             FileResult::Reloaded {
                 document,
                 fingerprint,
+                original,
                 text,
             } => {
+                if self.filing.edited().map(EditedFile::path) == self.workspace.path() {
+                    self.filing.set_original(original);
+                }
                 self.interrupt();
                 self.workspace.reload(document, fingerprint);
                 self.document_changed();

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::document::Document;
-use crate::io::{Format, Loss, LossReport, formats};
+use crate::io::{Format, Loss, LossReport, Original, Rest, WriteError, WrittenBack, formats};
 
 /// A curve that moves by less than this share of its size has lost nothing that anybody could see or measure. Curves
 /// converted to clamped knots and back move by up to about 1e-14.
@@ -18,6 +18,8 @@ pub struct EditedFile {
     path: PathBuf,
     /// Whether the file holds nothing but curves.
     is_alone: bool,
+    /// Its content when it was opened, if changes can be written into that.
+    original: Option<Arc<Original>>,
     /// Whether the user has accepted the losses.
     is_accepted: bool,
     /// Whether the file was saved at least once.
@@ -30,6 +32,7 @@ impl EditedFile {
         Self {
             path: path.to_owned(),
             is_alone,
+            original: None,
             is_accepted: false,
             is_saved: Arc::default(),
         }
@@ -43,6 +46,29 @@ impl EditedFile {
     /// Whether its format can hold less than a document: saving then loses something.
     pub fn is_foreign(&self) -> bool {
         !formats::to_write(&self.path).is_ok_and(|format| format.holds_documents)
+    }
+
+    /// Set the content into which changes are written.
+    pub(in crate::editor) fn set_original(&mut self, original: Option<Original>) {
+        self.original = original.map(Arc::new);
+    }
+
+    /// What a document becomes in the file.
+    ///
+    /// # Errors
+    /// [`WriteError`] if the format cannot hold it.
+    pub(super) fn written(
+        &self,
+        format: &Format,
+        document: &Document,
+    ) -> Result<WrittenBack, WriteError> {
+        match &self.original {
+            Some(original) => original.written_back(document),
+            None => Ok(WrittenBack {
+                export: format.write_back(document)?,
+                rest: Rest::Lost(None),
+            }),
+        }
     }
 
     /// A flag that tells, also after the window is gone, whether the file was saved.
@@ -63,21 +89,27 @@ impl EditedFile {
         &self,
         format: &Format,
         document: &Document,
-        losses: &LossReport,
+        WrittenBack { export, rest }: &WrittenBack,
     ) -> Vec<String> {
         if self.is_accepted {
             return Vec::new();
         }
-        let rest = (format.draws() && !self.is_alone).then(|| {
-            format!(
-                "The {format} holds the curves alone: other entities, layers and styles are lost."
-            )
-        });
+        let rest = match rest {
+            Rest::Lost(why) if format.draws() && !self.is_alone => {
+                let why = why.as_ref().map(|why| format!(": {why}"));
+                let why = why.map(|why| format!("The {format} cannot be changed in place{why}."));
+                let lost = format!(
+                    "The {format} holds the curves alone: other entities, layers and styles are lost."
+                );
+                why.into_iter().chain([lost]).collect()
+            }
+            _ => Vec::new(),
+        };
         let sizes: HashMap<&str, f64> = document
             .curves()
             .map(|(_, curve)| (curve.name.as_str(), curve.polygon.size()))
             .collect();
-        let mut losses = losses.clone();
+        let mut losses: LossReport = export.losses.clone();
         losses.losses.retain(|(name, loss)| match loss {
             Loss::Digits { curve, .. } => {
                 let size = sizes.get(name.as_str()).copied().unwrap_or_default();

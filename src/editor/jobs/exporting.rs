@@ -5,12 +5,12 @@ use crate::document::{CurveId, Document};
 use crate::editor::reply::Refusal;
 use crate::geometry::Progress;
 use crate::io::{Export, ExportChoice};
-use crate::operations::lowered;
+use crate::operations::{lowered, told_of_lowered};
 
 /// What an export would write and lose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExportForecast {
-    /// How many curves and references are written.
+    /// How many curves and references are written, without those that are left out.
     pub counts: [usize; 2],
     /// The size of the file in bytes.
     pub bytes: usize,
@@ -52,19 +52,21 @@ pub(super) fn exported(
     let chosen = choice
         .chosen(document, selected)
         .map_err(|it| refused(&it))?;
-    let counts = [chosen.curves().count(), chosen.references().count()];
+    let all = [chosen.curves().count(), chosen.references().count()];
     let (lower, told) = match choice.most_degree {
         None => (chosen, Vec::new()),
         Some(most) => {
             let lower = lowered(&chosen, most, choice.tolerance, progress);
             let (lower, told) = lower.map_err(|it| refused(&it))?;
-            (lower, told.iter().map(ToString::to_string).collect())
+            (lower, told_of_lowered(&told))
         }
     };
     let mut export = choice.write(&lower).map_err(|it| refused(&it))?;
     export.losses.add_matches(document, |curve| {
         chosen_names(&lower).any(|name| name == curve.name)
     });
+    let left_out = export.losses.left_out();
+    let counts = [0, 1].map(|kind| all[kind] - left_out[kind].min(all[kind]));
     Ok(Exported {
         export,
         counts,

@@ -15,7 +15,8 @@ use crate::editor::workspace::Workspace;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{Progress, counted};
 use crate::io::{
-    ExportChoice, FileError, Fingerprint, PROJECT, Scope, counted_items, disk, formats, shown_path,
+    ExportChoice, FileError, Fingerprint, Original, PROJECT, Scope, counted_items, disk, formats,
+    shown_path,
 };
 
 /// Read and write files, and watch the document's own file.
@@ -94,10 +95,14 @@ pub(in crate::editor) enum FileResult {
         text: String,
         /// The file of another program that it was read from, to be chosen anew.
         file: Option<FilesToRead>,
+        /// The content of the file that is edited.
+        original: Option<Original>,
     },
     Reloaded {
         document: Document,
         fingerprint: Fingerprint,
+        /// The content of the file that is edited.
+        original: Option<Original>,
         text: String,
     },
     /// Documents to be merged.
@@ -301,6 +306,13 @@ impl Filing {
     /// The file that the program was started to edit.
     pub fn edited(&self) -> Option<&EditedFile> {
         self.edited.as_ref()
+    }
+
+    /// Set the content of the edited file into which changes are written.
+    pub(in crate::editor) fn set_original(&mut self, original: Option<Original>) {
+        if let Some(edited) = &mut self.edited {
+            edited.set_original(original);
+        }
     }
 
     /// Accept what the format of the edited file cannot hold. From now on saving does not ask.
@@ -510,9 +522,14 @@ fn open(
         text += "\nSave writes the file back. Close the window when you are done.";
     }
     let elsewhere = own.as_deref().map(|own| open_elsewhere(own, autosaver));
+    let own = own.zip(fingerprint);
+    let original = own
+        .as_ref()
+        .and_then(|(path, known)| disk::original(path, *known, &document));
     Ok(FileResult::Opened {
         document,
-        own: own.zip(fingerprint),
+        own,
+        original,
         text: with_lines(text, &elsewhere.unwrap_or_default()),
         file: (!drawings.is_empty()).then(|| files.clone()),
     })
@@ -522,8 +539,10 @@ fn reload(path: &Path) -> Result<FileResult, Refusal> {
     let (mut reading, fingerprint) = disk::read_with_fingerprint(path, None, None)?;
     let remarks = std::mem::take(&mut reading.remarks);
     let text = format!("Reloaded from {}", shown_path(path));
+    let document = reading.into_document()?;
     Ok(FileResult::Reloaded {
-        document: reading.into_document()?,
+        original: disk::original(path, fingerprint, &document),
+        document,
         fingerprint,
         text: with_lines(text, &remarks),
     })
@@ -570,15 +589,16 @@ fn write_back(
 ) -> Result<FileResult, Refusal> {
     let path = edited.path();
     let format = formats::to_write(path).map_err(FileError::at(path))?;
-    let export = format.write_back(&document).map_err(FileError::at(path))?;
-    let losses = edited.losses_to_accept(format, &document, &export.losses);
+    let written = edited.written(format, &document);
+    let written = written.map_err(FileError::at(path))?;
+    let losses = edited.losses_to_accept(format, &document, &written);
     if !losses.is_empty() {
         return Ok(FileResult::Loses(losses));
     }
     if is_changed(path, known) {
         return Ok(FileResult::Changed(path.to_owned()));
     }
-    let saved = disk::write_export(path, export)?;
+    let saved = disk::write_export(path, written.export)?;
     Ok(FileResult::Saved {
         text: with_lines(format!("Saved to {}", shown_path(path)), &saved),
         path: path.to_owned(),
@@ -607,12 +627,9 @@ fn export(
         counts: [curves, references],
         told,
     } = exported(choice, document, selected, &Progress::default())?;
-    let mut text = match curves {
-        0 => counted_items(curves, references),
-        _ => counted(curves, "curve", "curves"),
-    };
-    text += &format!(" exported to {shown}");
-    let rest = document.curves().count() - curves;
+    let mut text = format!("{} exported to {shown}", counted_items(curves, references));
+    let hidden = document.curves().filter(|(_, curve)| !curve.visible);
+    let rest = hidden.count();
     if rest > 0 && choice.scope == Scope::Visible {
         let hidden = counted(rest, "hidden curve", "hidden curves");
         text += &format!("; {hidden} skipped");
@@ -704,6 +721,7 @@ mod tests {
                 own: None,
                 text: "read".to_owned(),
                 file: None,
+                original: None,
             }))
         };
         let work = FileWork {

@@ -33,6 +33,7 @@ pub static DXF: Format = Format {
     read: None,
     write: Some(write),
     write_back: Some(|document, _, losses| drawing(document, &[], losses)),
+    rewrite: None,
     read_chosen: None,
     draw: Some(exchange::dxf::read),
     is_unitless: false,

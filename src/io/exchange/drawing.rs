@@ -245,6 +245,15 @@ impl Affine {
         self.linear * vector
     }
 
+    /// The placement that takes this one back; `None` if it flattens something.
+    pub fn inverse(&self) -> Option<Self> {
+        let linear = self.linear.inverse();
+        let origin = -(linear * self.origin);
+        let is_regular =
+            linear.is_finite() && origin.is_finite() && self.linear.determinant() != 0.0;
+        is_regular.then_some(Self { linear, origin })
+    }
+
     /// The placement of a part within a part that `self` places.
     pub fn of(&self, inner: &Self) -> Self {
         Self {

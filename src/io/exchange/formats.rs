@@ -1,7 +1,8 @@
 //! The rows of the table of formats for CAD and drawing programs.
 
+use super::changes::Rewriter;
 use super::drawing::{Drawing, Unreadable};
-use super::writing::{KeptGroup, Written};
+use super::writing::{Holds, KeptGroup, Manner, Written};
 use super::{brep, curve_json, glif, iges, obj, step, svg, threedm};
 use crate::document::Document;
 use crate::geometry::PolygonKind;
@@ -20,6 +21,7 @@ const NONE: Format = Format {
     draw: None,
     write: None,
     write_back: None,
+    rewrite: None,
     is_unitless: false,
     holds_documents: false,
     exports: &[],
@@ -106,13 +108,20 @@ pub static SVG: Format = Format {
     extensions: &["svg"],
     draw: Some(svg::read),
     write: Some(|document, writing, losses| {
-        drawn(
-            document,
-            Written::Cubics(writing.tolerance),
-            losses,
-            svg::kept_group,
-            svg::write,
-        )
+        let manner = Manner {
+            written: Written::Cubics(writing.tolerance),
+            kept: svg::kept_group,
+            holds: svg::holds,
+        };
+        drawn(document, &manner, losses, svg::write)
+    }),
+    rewrite: Some(Rewriter {
+        manner: Manner {
+            written: Written::Cubics(None),
+            kept: <[String]>::to_vec,
+            holds: svg::holds,
+        },
+        write: svg::rewrite,
     }),
     exports: &[ExportRow {
         label: "Export SVG…",
@@ -131,8 +140,20 @@ pub static GLIF: Format = Format {
     draw: Some(glif::read),
     is_unitless: true,
     write: Some(|document, writing, losses| {
-        let cubics = Written::Cubics(writing.tolerance);
-        drawn(document, cubics, losses, none, glif::write)
+        let manner = Manner {
+            written: Written::Cubics(writing.tolerance),
+            kept: none,
+            holds: glif::holds,
+        };
+        drawn(document, &manner, losses, glif::write)
+    }),
+    rewrite: Some(Rewriter {
+        manner: Manner {
+            written: Written::Cubics(None),
+            kept: <[String]>::to_vec,
+            holds: glif::holds,
+        },
+        write: glif::rewrite,
     }),
     ..NONE
 };
@@ -185,16 +206,24 @@ pub static CURVE_JSON: Format = Format {
 /// [`WriteError`] if there is nothing to write, or a curve is not in the plane.
 pub fn svg_path(document: &Document) -> Result<(String, LossReport), WriteError> {
     let mut losses = LossReport::new(SVG.name);
-    let drawing = Drawing::of(document, Written::Cubics(None), none, &mut losses)?;
+    let manner = Manner {
+        written: Written::Cubics(None),
+        kept: none,
+        holds: svg::holds,
+    };
+    let drawing = Drawing::of(document, &manner, &mut losses)?;
     let data = svg::path_data(&drawing);
     let data = data.map_err(|Unreadable { reason, .. }| WriteError::Refused {
         format: SVG.name,
         reason,
     })?;
     // A path has no attributes that could be lost.
-    losses
-        .losses
-        .retain(|(_, loss)| matches!(loss, Loss::Cubics { .. } | Loss::Reference));
+    losses.losses.retain(|(_, loss)| {
+        matches!(
+            loss,
+            Loss::Cubics { .. } | Loss::Reference | Loss::LeftOut { .. }
+        )
+    });
     Ok((data, losses))
 }
 
@@ -217,18 +246,25 @@ fn written(
     write: WriteDrawing,
 ) -> Result<Vec<u8>, WriteError> {
     let knots = writing.polygon.unwrap_or(PolygonKind::Clamped);
-    drawn(document, Written::Knots(knots), losses, kept, write)
+    let manner = Manner {
+        written: Written::Knots(knots),
+        kept,
+        holds: ANYTHING,
+    };
+    drawn(document, &manner, losses, write)
 }
+
+/// Formats of splines hold every item.
+const ANYTHING: Holds = |_| Ok(());
 
 fn drawn(
     document: &Document,
-    way: Written,
+    manner: &Manner,
     losses: &mut LossReport,
-    kept: KeptGroup,
     write: WriteDrawing,
 ) -> Result<Vec<u8>, WriteError> {
     let format = losses.format;
-    let drawing = Drawing::of(document, way, kept, losses)?;
+    let drawing = Drawing::of(document, manner, losses)?;
     let name = drawing.items.first().and_then(|item| item.name.clone());
     let bytes = write(&drawing, name.as_deref().unwrap_or("curves"));
     bytes.map_err(|Unreadable { reason, .. }| WriteError::Refused { format, reason })

@@ -2,6 +2,7 @@
 //! references are taken; each writer makes bytes of one.
 
 mod brep;
+pub(super) mod changes;
 mod choice;
 mod conic_frame;
 mod cubics;
@@ -23,6 +24,7 @@ mod spline_part;
 mod splines;
 mod step;
 mod svg;
+mod text_edits;
 mod threedm;
 pub(super) mod writing;
 mod xml;

@@ -44,7 +44,21 @@ impl Drawing {
         reading
     }
 
+    /// The item and the shape of which each curve, then each reference of [`Drawing::reading`] is made; `None` for
+    /// points, which make one reference.
+    pub(in crate::io) fn sources(&self) -> [Vec<Option<ShapePlace>>; 2] {
+        let space = free_space(self.items.iter().map(|item| item.space));
+        self.taken_from(|item| item.space == space).1
+    }
+
     fn taken(&self, is_taken: impl Fn(&Item) -> bool) -> Reading {
+        self.taken_from(is_taken).0
+    }
+
+    fn taken_from(
+        &self,
+        is_taken: impl Fn(&Item) -> bool,
+    ) -> (Reading, [Vec<Option<ShapePlace>>; 2]) {
         let (unit, factor) = unit_of(self.unit);
         let mut taken = Taken {
             reading: Reading {
@@ -55,19 +69,27 @@ impl Drawing {
             chains: Names::default(),
             points: Vec::new(),
             crowds: HashMap::new(),
+            sources: Default::default(),
             factor,
         };
         for item in &self.items {
             *taken.crowds.entry(item.group.clone()).or_default() += 1;
         }
-        let (chosen, rest): (Vec<&Item>, Vec<&Item>) =
-            self.items.iter().partition(|item| is_taken(item));
-        for item in &chosen {
-            taken.take(item);
+        let items = self.items.iter().enumerate();
+        let (chosen, rest): (Vec<_>, Vec<_>) = items.partition(|(_, item)| is_taken(item));
+        for (index, item) in &chosen {
+            taken.take(*index, item);
         }
+        let [chosen, rest] = [chosen, rest].map(|items| {
+            let items = items.into_iter().map(|(_, item)| item);
+            items.collect::<Vec<&Item>>()
+        });
         taken.finish(self, &chosen, &rest)
     }
 }
+
+/// The place of an item in a drawing, and that of a shape in the item.
+pub(in crate::io) type ShapePlace = [usize; 2];
 
 impl DrawnNurbs {
     /// Check the knots and points of a file.
@@ -118,6 +140,8 @@ struct Taken {
     points: Vec<(DVec3, Group)>,
     /// How many items each group has.
     crowds: HashMap<Vec<String>, usize>,
+    /// Of what each curve, then each reference is made.
+    sources: [Vec<Option<ShapePlace>>; 2],
     factor: f64,
 }
 
@@ -125,7 +149,7 @@ struct Taken {
 const DEFAULT_LAYERS: [&str; 2] = ["0", "Default"];
 
 impl Taken {
-    fn take(&mut self, item: &Item) {
+    fn take(&mut self, place: usize, item: &Item) {
         let shapes = item.shapes.len();
         let (own, layers) = self.placed(item);
         let group = self.group(item, own, layers);
@@ -140,8 +164,12 @@ impl Taken {
                 None => self.names.of_kind(item.kind),
             };
             match Made::of(scaled(shape, self.factor)) {
-                Ok(Made::Curve(near)) => self.add_curve(name, near, item.colour, group.clone()),
+                Ok(Made::Curve(near)) => {
+                    self.sources[0].push(Some([place, index]));
+                    self.add_curve(name, near, item.colour, group.clone());
+                }
                 Ok(Made::Reference(curve)) => {
+                    self.sources[1].push(Some([place, index]));
                     let mut reference = Reference::new(name, curve).in_group(group.clone());
                     reference.colour = item.colour.and_then(seen);
                     self.reading.references.push(reference);
@@ -196,7 +224,12 @@ impl Taken {
     }
 
     /// Add the points, and say what was not taken.
-    fn finish(mut self, drawing: &Drawing, chosen: &[&Item], rest: &[&Item]) -> Reading {
+    fn finish(
+        mut self,
+        drawing: &Drawing,
+        chosen: &[&Item],
+        rest: &[&Item],
+    ) -> (Reading, [Vec<Option<ShapePlace>>; 2]) {
         let points = std::mem::take(&mut self.points);
         match points.len() {
             0 => {}
@@ -243,7 +276,7 @@ impl Taken {
         for remark in &drawing.remarks {
             self.tell(remark.clone());
         }
-        self.reading
+        (self.reading, self.sources)
     }
 
     fn add_points(&mut self, points: Vec<(DVec3, Group)>) {
@@ -261,6 +294,7 @@ impl Taken {
         match curve {
             Ok(curve) => {
                 let reference = Reference::new(name, curve).in_group(group);
+                self.sources[1].push(None);
                 self.reading.references.push(reference);
             }
             Err(error) => self.tell(format!("the points are left out: {error}")),

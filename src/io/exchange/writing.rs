@@ -2,7 +2,7 @@
 
 use super::cubics::Cubics;
 use super::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
-use crate::document::{Curve, Document, Group};
+use crate::document::{Curve, Document, Group, Reference};
 use crate::geometry::PolygonKind;
 use crate::geometry::references::{ReferenceCurve, ReferenceForm};
 use crate::io::error::WriteError;
@@ -10,11 +10,25 @@ use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
 
 /// The names that a format holds of the path of a group.
-pub(super) type KeptGroup = fn(&[String]) -> Vec<String>;
+pub(in crate::io) type KeptGroup = fn(&[String]) -> Vec<String>;
+
+/// Say what an item is that a format cannot hold.
+pub(in crate::io) type Holds = fn(&Item) -> Result<(), String>;
+
+/// What a format makes of a document.
+#[derive(Clone, Copy)]
+pub(in crate::io) struct Manner {
+    /// How curves are written.
+    pub(in crate::io) written: Written,
+    /// What the format holds of groups.
+    pub(in crate::io) kept: KeptGroup,
+    /// What it holds of items: the others are left out.
+    pub(in crate::io) holds: Holds,
+}
 
 /// How curves are written.
 #[derive(Clone, Copy)]
-pub(super) enum Written {
+pub(in crate::io) enum Written {
     /// On the knots of one of their polygons.
     Knots(PolygonKind),
     /// As Béziers up to degree 3; other planar curves as the fewest cubics within a length, or 1e-4 of their size.
@@ -23,14 +37,13 @@ pub(super) enum Written {
 
 impl Drawing {
     /// Take curves by one of their polygons or as cubics, and references that formats of other programs can hold.
-    /// `kept` tells what the format holds of their groups.
+    /// What the format cannot hold is left out.
     ///
     /// # Errors
-    /// [`WriteError::NoCurves`].
+    /// [`WriteError::NoCurves`]; [`WriteError::Refused`] if everything is left out.
     pub(super) fn of(
         document: &Document,
-        written: Written,
-        kept: KeptGroup,
+        manner: &Manner,
         losses: &mut LossReport,
     ) -> Result<Self, WriteError> {
         let mut drawing = Self {
@@ -38,32 +51,79 @@ impl Drawing {
             ..Self::default()
         };
         for (_, curve) in document.curves() {
-            report(curve, losses);
-            report_group(&curve.name, &curve.group, kept, losses);
-            drawing.items.push(Item {
-                group: curve.group.names().to_vec(),
-                colour: curve.colour.map(|colour| colour.0),
-                ..named(&curve.name, Kind::Spline, written.shape(curve, losses))
-            });
+            drawing.items.extend(Item::of_curve(curve, manner, losses));
         }
         for (_, reference) in document.references() {
-            match shape(&reference.curve) {
-                Some((kind, shape)) => {
-                    report_group(&reference.name, &reference.group, kept, losses);
-                    drawing.items.push(Item {
-                        group: reference.group.names().to_vec(),
-                        colour: reference.colour.map(|colour| colour.0),
-                        ..named(&reference.name, kind, shape)
-                    });
-                }
-                None => losses.add_reference(reference),
-            }
+            let item = Item::of_reference(reference, manner, losses);
+            drawing.items.extend(item);
         }
-        match drawing.items.is_empty() {
-            true => Err(WriteError::NoCurves {
-                format: losses.format,
-            }),
-            false => Ok(drawing),
+        let format = losses.format;
+        match (drawing.items.is_empty(), losses.first_left_out()) {
+            (false, _) => Ok(drawing),
+            (true, Some(reason)) => Err(WriteError::Refused { format, reason }),
+            (true, None) => Err(WriteError::NoCurves { format }),
+        }
+    }
+}
+
+impl Item {
+    /// What a curve becomes; `None` if the format cannot hold it.
+    pub(in crate::io) fn of_curve(
+        curve: &Curve,
+        manner: &Manner,
+        losses: &mut LossReport,
+    ) -> Option<Self> {
+        let mut own = LossReport::new(losses.format);
+        report(curve, &mut own);
+        report_group(&curve.name, &curve.group, manner.kept, &mut own);
+        let shape = manner.written.shape(curve, &mut own);
+        let item = Self {
+            group: curve.group.names().to_vec(),
+            colour: curve.colour.map(|colour| colour.0),
+            ..named(&curve.name, Kind::Spline, shape)
+        };
+        item.held(manner, own, true, losses)
+    }
+
+    /// What a reference becomes; `None` if the format, or any, cannot hold it.
+    pub(in crate::io) fn of_reference(
+        reference: &Reference,
+        manner: &Manner,
+        losses: &mut LossReport,
+    ) -> Option<Self> {
+        let Some((kind, shape)) = shape(&reference.curve) else {
+            losses.add_reference(reference);
+            return None;
+        };
+        let mut own = LossReport::new(losses.format);
+        report_group(&reference.name, &reference.group, manner.kept, &mut own);
+        let item = Self {
+            group: reference.group.names().to_vec(),
+            colour: reference.colour.map(|colour| colour.0),
+            ..named(&reference.name, kind, shape)
+        };
+        item.held(manner, own, false, losses)
+    }
+
+    /// The item with its own losses, or the loss of it as a whole.
+    fn held(
+        self,
+        manner: &Manner,
+        own: LossReport,
+        is_curve: bool,
+        losses: &mut LossReport,
+    ) -> Option<Self> {
+        match (manner.holds)(&self) {
+            Ok(()) => {
+                losses.losses.extend(own.losses);
+                Some(self)
+            }
+            Err(what) => {
+                let loss = Loss::LeftOut { what, is_curve };
+                let name = self.name.unwrap_or_default();
+                losses.losses.push((name, loss));
+                None
+            }
         }
     }
 }

@@ -61,6 +61,13 @@ impl Source {
         parse(&self.text).map_err(|error| unreadable(&error))
     }
 
+    /// Get the text, and how many bytes of its file are before it; `None` if it is not the file's own text.
+    pub(super) fn within<'s>(&'s self, bytes: &[u8]) -> Option<(&'s str, usize)> {
+        let before = bytes.len().checked_sub(self.text.len())?;
+        let is_own = bytes.get(before..)? == self.text.as_bytes();
+        is_own.then_some((self.text.as_str(), before))
+    }
+
     /// Get the line of a byte, from 1.
     pub(super) fn line(&self, position: usize) -> u64 {
         self.lines.partition_point(|&start| start <= position) as u64 + 1

@@ -59,8 +59,7 @@ fn unknown_keys_are_written_again_to_the_letter() {
         let written = format.write(&document, None);
         let losses = written.unwrap().losses.to_string();
         let expected = format!(
-            "“arc”: unknown keys aren't stored in the {expected}\n\
-             “keel”: unknown keys aren't stored in the {expected}\n\
+            "“arc” and “keel”: unknown keys aren't stored in the {expected}\n\
              the project's unknown keys aren't stored in the {expected}"
         );
         assert_eq!(losses, expected);

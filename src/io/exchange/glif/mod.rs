@@ -4,16 +4,35 @@
 //! the points that TrueType implies nor those of longer cubic runs have to be computed.
 
 mod reader;
+mod rewriting;
 mod writer;
 
 #[cfg(test)]
 mod tests;
 
-use crate::io::exchange::drawing::{Drawing, Unreadable};
+use super::changes::Changes;
+use super::xml::Source;
+use crate::io::exchange::drawing::{Drawing, Item, Unreadable};
+use crate::io::loss::LossReport;
 
 /// Read the contours of a glyph.
 pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
-    reader::read(bytes)
+    let source = Source::new(bytes)?;
+    Ok(reader::read(&source, &source.document()?)?.0)
+}
+
+/// Write changes into the text of a glyph; the reason where that is not possible.
+pub fn rewrite(
+    bytes: &[u8],
+    changes: &Changes,
+    losses: &mut LossReport,
+) -> Result<Vec<u8>, String> {
+    rewriting::rewritten(bytes, changes, losses)
+}
+
+/// Say what an item is that a glyph cannot hold.
+pub fn holds(item: &Item) -> Result<(), String> {
+    writer::contours(&item.shapes).map(|_| ())
 }
 
 /// Write a glyph of lines, cubic and quadratic curves; refuse anything else.

@@ -1,17 +1,18 @@
 //! Reads glyphs.
 
 use glam::DVec3;
-use roxmltree::Node;
+use roxmltree::{Document, Node, NodeId};
 
 use super::super::pieces::Pieces;
 use super::super::remarks::Remarks;
 use super::super::xml::Source;
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Space, Unreadable};
 
-/// Read the contours of a glyph.
-pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
-    let source = Source::new(bytes)?;
-    let document = source.document()?;
+/// Read the contours of a glyph. Returns also the element that each item comes from.
+pub(super) fn read(
+    source: &Source,
+    document: &Document,
+) -> Result<(Drawing, Vec<NodeId>), Unreadable> {
     let root = document.root_element();
     if root.tag_name().name() != "glyph" {
         return Err(Unreadable {
@@ -20,9 +21,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         });
     }
     let mut reader = Reader {
-        source: &source,
+        source,
         name: root.attribute("name").filter(|it| !it.is_empty()),
         drawing: Drawing::default(),
+        places: Vec::new(),
         remarks: Remarks::default(),
     };
     source
@@ -37,7 +39,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         }
     }
     reader.drawing.remarks = reader.remarks.finish();
-    Ok(reader.drawing)
+    Ok((reader.drawing, reader.places))
 }
 
 struct Reader<'d> {
@@ -45,6 +47,8 @@ struct Reader<'d> {
     /// The name of the glyph.
     name: Option<&'d str>,
     drawing: Drawing,
+    /// The elements of the items.
+    places: Vec<NodeId>,
     remarks: Remarks,
 }
 
@@ -112,6 +116,7 @@ impl Reader<'_> {
         if shapes.is_empty() {
             return self.remark(node, "it is skipped because nothing of it is a curve");
         }
+        self.places.push(node.id());
         self.drawing.items.push(Item {
             kind: Kind::Path,
             shapes,

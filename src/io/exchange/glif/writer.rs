@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::super::splines::{Piece, described, pieces};
 use super::super::xml::escaped;
-use crate::io::exchange::drawing::{Drawing, Item, Unreadable};
+use crate::io::exchange::drawing::{Drawing, Item, Shape, Unreadable};
 
 /// Write a glyph.
 pub(super) fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable> {
@@ -15,7 +15,7 @@ pub(super) fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable
         escaped(name)
     );
     for item in &drawing.items {
-        for contour in contours(item).map_err(|what| refusal(drawing, item, &what))? {
+        for contour in contours(&item.shapes).map_err(|what| refusal(drawing, item, &what))? {
             contour.write(&mut text);
         }
     }
@@ -24,8 +24,8 @@ pub(super) fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable
 }
 
 /// The points of a contour with their types.
-struct Contour {
-    points: Vec<(DVec3, Option<&'static str>)>,
+pub(super) struct Contour {
+    pub(super) points: Vec<(DVec3, Option<&'static str>)>,
 }
 
 impl Contour {
@@ -62,24 +62,31 @@ impl Contour {
         }
     }
 
-    fn write(&self, text: &mut String) {
+    /// Write the contour with its tags.
+    pub(super) fn write(&self, text: &mut String) {
         text.push_str("    <contour>\n");
+        self.write_points(text, "      ");
+        text.push_str("    </contour>\n");
+    }
+
+    /// Write the points, a line each.
+    pub(super) fn write_points(&self, text: &mut String, indent: &str) {
         for (point, kind) in &self.points {
             let kind = kind.map(|it| format!(" type=\"{it}\"")).unwrap_or_default();
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
-                "      <point x=\"{}\" y=\"{}\"{kind}/>",
+                "{indent}<point x=\"{}\" y=\"{}\"{kind}/>",
                 point.x, point.y
             );
         }
-        text.push_str("    </contour>\n");
     }
 }
 
-fn contours(item: &Item) -> Result<Vec<Contour>, String> {
+/// The contours along some shapes, or what they are that a glyph cannot hold.
+pub(super) fn contours(shapes: &[Shape]) -> Result<Vec<Contour>, String> {
     let mut contours: Vec<Contour> = Vec::new();
-    for shape in &item.shapes {
+    for shape in shapes {
         for piece in pieces(shape)? {
             add(&mut contours, &piece)?;
         }

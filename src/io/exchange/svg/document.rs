@@ -24,9 +24,46 @@ const COST: usize = 2_000_000;
 /// The memory for the tree and the items of a file of up to 11 MB; larger files get twenty times their size.
 const MEMORY: usize = 220 << 20;
 
+/// Where an item of a drawing comes from.
+#[derive(Clone)]
+pub(super) struct Placed {
+    /// The element.
+    pub(super) element: NodeId,
+    /// How many elements were drawn before, with every use of one.
+    pub(super) drawn: usize,
+    /// What places its coordinates.
+    pub(super) place: Affine,
+    /// What percentages refer to.
+    pub(super) viewport: Viewport,
+    /// Whether all of the element was read.
+    pub(super) is_whole: bool,
+}
+
 /// Read a drawing.
-pub(super) fn read(source: &Source, size: usize) -> Result<Drawing, Unreadable> {
-    let document = source.document()?;
+pub(super) fn read(
+    source: &Source,
+    document: &Document<'_>,
+    size: usize,
+) -> Result<Drawing, Unreadable> {
+    Ok(walk(source, document, size, false)?.0)
+}
+
+/// Read where the items of a drawing come from.
+pub(super) fn places(
+    source: &Source,
+    document: &Document<'_>,
+    size: usize,
+) -> Result<Vec<Placed>, Unreadable> {
+    Ok(walk(source, document, size, true)?.1)
+}
+
+/// Walk over a drawing. `places` tells whether to keep where items come from.
+fn walk(
+    source: &Source,
+    document: &Document<'_>,
+    size: usize,
+    places: bool,
+) -> Result<(Drawing, Vec<Placed>), Unreadable> {
     let root = document.root_element();
     if !is_svg(root) || root.tag_name().name() != "svg" {
         return Err(Unreadable {
@@ -38,7 +75,8 @@ pub(super) fn read(source: &Source, size: usize) -> Result<Drawing, Unreadable> 
         });
     }
     let page = page(root);
-    let mut walk = Walk::new(source, &document, size);
+    let mut walk = Walk::new(source, document, size);
+    walk.places = places.then(Vec::new);
     walk.drawing.unit = page.unit;
     source
         .remarks
@@ -54,7 +92,8 @@ pub(super) fn read(source: &Source, size: usize) -> Result<Drawing, Unreadable> 
         depth: 0,
     };
     walk.children(root, &frame);
-    Ok(walk.finish())
+    let places = walk.places.take().unwrap_or_default();
+    Ok((walk.finish(), places))
 }
 
 /// What an element inherits from those around it.
@@ -75,6 +114,10 @@ struct Walk<'d> {
     ids: HashMap<&'d str, NodeId>,
     sheet: Sheet,
     drawing: Drawing,
+    /// Where the items come from, if that is kept.
+    places: Option<Vec<Placed>>,
+    /// How many elements were drawn.
+    drawn: usize,
     remarks: Remarks,
     /// The elements that are being used, outermost first.
     used: Vec<NodeId>,
@@ -117,6 +160,8 @@ impl<'d> Walk<'d> {
             ids,
             sheet,
             drawing,
+            places: None,
+            drawn: 0,
             remarks: Remarks::default(),
             used: Vec::new(),
             budget: COST + size / 4,
@@ -364,10 +409,13 @@ impl<'d> Walk<'d> {
             at: self.source.line_of(node),
         };
         let items = std::mem::take(&mut self.drawing.items);
-        let mut maker = Maker::new(self.placed(node, outer), item, items, self.memory);
+        let (place, before) = (self.placed(node, outer), items.len());
+        let mut is_whole = true;
+        let mut maker = Maker::new(place, item, items, self.memory);
         if node.tag_name().name() == "path" {
             let data = node.attribute("d").unwrap_or_default();
             let outcome = paths::read(data, &mut |shapes| maker.take(shapes));
+            is_whole = outcome.error.is_none();
             self.report_path(node, &outcome);
         } else {
             match shapes::shape(node, outer.viewport) {
@@ -377,10 +425,12 @@ impl<'d> Walk<'d> {
                 Err(reason) => self.remark(node, &format!("it is skipped because {reason}")),
             }
             if shapes::has_damaged_points(node) {
+                is_whole = false;
                 self.remark(node, "its points are damaged and read up to the damage");
             }
         }
         if maker.infinite > 0 {
+            is_whole = false;
             self.remark(
                 node,
                 "it is skipped because its coordinates are beyond all numbers",
@@ -389,6 +439,17 @@ impl<'d> Walk<'d> {
         let full = maker.is_full();
         self.memory = maker.memory;
         self.drawing.items = maker.items;
+        self.drawn += 1;
+        if let Some(places) = &mut self.places {
+            let placed = Placed {
+                element: node.id(),
+                drawn: self.drawn,
+                place,
+                viewport: outer.viewport,
+                is_whole: is_whole && !full,
+            };
+            places.resize(places.len() + self.drawing.items.len() - before, placed);
+        }
         if full {
             self.stop(node);
         }

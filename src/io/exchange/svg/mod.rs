@@ -14,6 +14,7 @@ mod maker;
 mod names;
 mod namespaces;
 mod paths;
+mod rewriting;
 mod shapes;
 mod style;
 mod transforms;
@@ -22,13 +23,29 @@ mod writer;
 #[cfg(test)]
 mod tests;
 
+use super::changes::Changes;
 use super::xml::Source;
-use crate::io::exchange::drawing::{Drawing, Unreadable};
+use crate::io::exchange::drawing::{Drawing, Item, Unreadable};
+use crate::io::loss::LossReport;
 
 /// Read the shapes of a drawing.
 pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     let source = Source::new(bytes)?;
-    document::read(&source, bytes.len())
+    document::read(&source, &source.document()?, bytes.len())
+}
+
+/// Write changes into the text of a drawing; the reason where that is not possible.
+pub fn rewrite(
+    bytes: &[u8],
+    changes: &Changes,
+    losses: &mut LossReport,
+) -> Result<Vec<u8>, String> {
+    rewriting::rewritten(bytes, changes, losses)
+}
+
+/// Say what an item is that SVG cannot hold.
+pub fn holds(item: &Item) -> Result<(), String> {
+    writer::holds(item)
 }
 
 /// The names of a group's path that a file holds.

@@ -19,6 +19,21 @@ pub(super) struct Outcome {
 /// Read the data of a path up to its first error, giving the pieces of each subpath; stop where it is
 /// refused.
 pub(super) fn read(data: &str, take: &mut dyn FnMut(Vec<Shape>) -> bool) -> Outcome {
+    walk(data, take, &mut |_| {})
+}
+
+/// Read where each `M` and `m` of the data leads.
+pub(super) fn starts(data: &str) -> Vec<DVec3> {
+    let mut starts = Vec::new();
+    walk(data, &mut |_| true, &mut |start| starts.push(start));
+    starts
+}
+
+fn walk(
+    data: &str,
+    take: &mut dyn FnMut(Vec<Shape>) -> bool,
+    moved: &mut dyn FnMut(DVec3),
+) -> Outcome {
     let mut pen = Pen {
         pieces: None,
         start: DVec3::ZERO,
@@ -27,6 +42,7 @@ pub(super) fn read(data: &str, take: &mut dyn FnMut(Vec<Shape>) -> bool) -> Outc
         quadratic: None,
         outcome: Outcome::default(),
         take,
+        moved,
         refused: false,
     };
     for segment in PathParser::from(data) {
@@ -57,6 +73,8 @@ struct Pen<'t> {
     quadratic: Option<DVec3>,
     outcome: Outcome,
     take: &'t mut dyn FnMut(Vec<Shape>) -> bool,
+    /// Called with the start of each subpath that a command begins.
+    moved: &'t mut dyn FnMut(DVec3),
     refused: bool,
 }
 
@@ -130,6 +148,7 @@ impl Pen<'_> {
 
     fn move_to(&mut self, to: DVec3) {
         self.lift();
+        (self.moved)(to);
         self.start = to;
         self.at = to;
         self.pieces = Some(Pieces::new(to));

@@ -16,6 +16,8 @@ const ARC_LIMIT: f64 = TAU / 3.0;
 /// How far the ends of an arc may be off those of its neighbours, per size of the page: far above rounding,
 /// far below what can be seen.
 const GAP: f64 = 1e-9;
+/// The same for shapes of one subpath that were placed there and back: a few times rounding.
+const JOINT: f64 = 1e-13;
 /// The most groups inside one another, as deep as the reader goes but for the group around them.
 const DEPTH_LIMIT: usize = 60;
 
@@ -64,7 +66,7 @@ pub(super) fn data(drawing: &Drawing) -> Result<String, Unreadable> {
         let shapes: Vec<Shape> = shapes.map(|shape| shape.placed(&mirrored)).collect();
         check(&shapes).map_err(|what| refusal(drawing, item, &what))?;
         let page = Page::around(shapes.iter());
-        let data = path_data(&shapes, &page);
+        let data = path_data(&shapes, &page, false);
         text += &data.map_err(|what| refusal(drawing, item, &what))?;
     }
     Ok(text)
@@ -116,13 +118,16 @@ struct PathData {
     end: Option<DVec3>,
     /// How near points count as one beside an arc.
     gap: f64,
+    /// Whether they count as one beside every piece.
+    joins: bool,
 }
 
 impl PathData {
     fn add(&mut self, piece: &Piece, next: Option<DVec3>) -> Result<(), String> {
         let start = piece.start().ok_or("a spline of implied points")?;
         let near = |it: DVec3| {
-            it == start || (matches!(piece, Piece::Arc(_)) && it.distance(start) <= self.gap)
+            let is_joined = self.joins || matches!(piece, Piece::Arc(_));
+            it == start || (is_joined && it.distance(start) <= self.gap)
         };
         if !self.end.is_some_and(near) {
             self.step("M", &[start]);
@@ -300,11 +305,31 @@ fn element(item: &Item, shapes: &[Shape], page: &Page) -> Result<String, String>
     }
     Ok(format!(
         "<path{attributes} d=\"{}\"/>\n",
-        path_data(shapes, page)?
+        path_data(shapes, page, false)?
     ))
 }
 
-fn path_data(shapes: &[Shape], page: &Page) -> Result<String, String> {
+/// Say what an item is that SVG cannot hold.
+pub(super) fn holds(item: &Item) -> Result<(), String> {
+    check(&item.shapes)?;
+    for piece in item.shapes.iter().map(pieces) {
+        for piece in piece? {
+            piece.start().ok_or("a spline of implied points")?;
+            if matches!(piece, Piece::Quadratic(points) if points.len() != 3) {
+                return Err("a spline of implied points".to_owned());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The data of one subpath along some shapes as they are. Ends of neighbours that differ by rounding are joined.
+pub(super) fn subpath(shapes: &[Shape]) -> Result<String, String> {
+    check(shapes)?;
+    path_data(shapes, &Page::around(shapes.iter()), true)
+}
+
+fn path_data(shapes: &[Shape], page: &Page, joins: bool) -> Result<String, String> {
     let mut parts = Vec::new();
     for shape in shapes {
         parts.extend(pieces(shape)?);
@@ -313,14 +338,19 @@ fn path_data(shapes: &[Shape], page: &Page) -> Result<String, String> {
         text: String::new(),
         start: DVec3::ZERO,
         end: None,
-        gap: GAP * page.size(),
+        gap: match joins {
+            true => JOINT * page.size(),
+            false => GAP * page.size(),
+        },
+        joins,
     };
     for (index, piece) in parts.iter().enumerate() {
         let next = parts.get(index + 1).and_then(Piece::start);
         data.add(piece, next)?;
     }
     let is_chain = matches!(parts.as_slice(), [Piece::Lines { .. }]);
-    if !is_chain && data.end == Some(data.start) {
+    let closes = |end: DVec3| end == data.start || (joins && end.distance(data.start) <= data.gap);
+    if !is_chain && data.end.is_some_and(closes) {
         data.text.push('Z');
     }
     Ok(data.text)
@@ -347,7 +377,7 @@ fn axes(conic: &Conic) -> (f64, f64, f64) {
 }
 
 /// Write a number such that it is read as the same; very large and small ones with an exponent.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     if value == 0.0 || (1e-5..1e15).contains(&value.abs()) {
         format!("{value}")
     } else {

@@ -1,0 +1,148 @@
+//! Writes changed contours into the text of a glyph. Where a contour keeps the kinds of its points, their coordinates
+//! alone change; everything else stays as it was, to the byte.
+
+use roxmltree::{Document, Node};
+
+use super::super::changes::Changes;
+use super::super::text_edits::TextEdits;
+use super::super::xml::Source;
+use super::reader;
+use super::writer::{Contour, contours};
+use crate::io::exchange::drawing::{Affine, Unreadable};
+use crate::io::loss::{Loss, LossReport};
+
+/// Write changes into the text of a glyph; the reason where that is not possible.
+pub(super) fn rewritten(
+    bytes: &[u8],
+    changes: &Changes,
+    losses: &mut LossReport,
+) -> Result<Vec<u8>, String> {
+    let unreadable = |error: Unreadable| error.reason;
+    let source = Source::new(bytes).map_err(unreadable)?;
+    let own = source.within(bytes);
+    let (text, before) = own.ok_or("the file is damaged, or its text is not UTF-8")?;
+    let document = source.document().map_err(unreadable)?;
+    let (drawing, places) = reader::read(&source, &document).map_err(unreadable)?;
+    let mut edits = TextEdits::default();
+    for (index, (item, place)) in drawing.items.into_iter().zip(places).enumerate() {
+        let Some(change) = changes.items.get(&index) else {
+            continue;
+        };
+        let node = document.get_node(place).ok_or("the file is damaged")?;
+        let shapes = change.applied(item.shapes, &Affine::default());
+        let is_kept =
+            contour(text, node, &contours(&shapes)?, &mut edits).ok_or("the file is damaged")?;
+        if !is_kept {
+            losses
+                .losses
+                .push((change.name.clone(), Loss::PointAttributes));
+        }
+    }
+    add(text, &document, changes, &mut edits)?;
+    let edited = edits.applied(text);
+    let edited = edited.ok_or("two changes meet in one place of the file")?;
+    let mut written = bytes.get(..before).unwrap_or_default().to_vec();
+    written.extend(edited.into_bytes());
+    Ok(written)
+}
+
+/// Put contours in the place of one. Returns whether the points keep their attributes.
+fn contour(text: &str, node: Node, new: &[Contour], edits: &mut TextEdits) -> Option<bool> {
+    let range = node.range();
+    if new.is_empty() {
+        // With the line that it is alone on.
+        let line = text.get(..range.start)?.trim_end_matches([' ', '\t']);
+        let line = line.strip_suffix('\n').unwrap_or(line);
+        let line = line.strip_suffix('\r').unwrap_or(line);
+        edits.replace(line.len()..range.end, "");
+        return Some(true);
+    }
+    if let [new] = new
+        && moved(node, new, edits)
+    {
+        return Some(true);
+    }
+    let points = || node.children().filter(|it| it.has_tag_name("point"));
+    let (first, last) = (points().next()?, points().next_back()?);
+    let before = text.get(..first.range().start)?;
+    let indent = before.get(before.trim_end_matches([' ', '\t']).len()..)?;
+    let mut written = String::new();
+    let [first_new, others @ ..] = new else {
+        return None;
+    };
+    first_new.write_points(&mut written, indent);
+    let inside = written.trim().to_owned();
+    edits.replace(first.range().start..last.range().end, inside);
+    let mut written = String::new();
+    others.iter().for_each(|it| it.write(&mut written));
+    if !written.is_empty() {
+        edits.replace(range.end..range.end, format!("\n{}", written.trim_end()));
+    }
+    Some(false)
+}
+
+/// Move the points of a contour to those of another one, if these are of the same kinds. Returns whether they are.
+fn moved(node: Node, new: &Contour, edits: &mut TextEdits) -> bool {
+    let points = node.children().filter(|it| it.has_tag_name("point"));
+    let points: Vec<Node> = points.collect();
+    let kind = |node: &Node| {
+        let kind = node.attribute("type");
+        kind.filter(|kind| *kind != "offcurve").map(str::to_owned)
+    };
+    // The reader begins at the first point on the curve.
+    let first = points.iter().position(|it| kind(it).is_some());
+    let mut turned = points.clone();
+    turned.rotate_left(first.unwrap_or_default());
+    let is_same = turned.len() == new.points.len()
+        && turned
+            .iter()
+            .zip(&new.points)
+            .all(|(old, (_, new))| kind(old).as_deref() == *new);
+    if !is_same {
+        return false;
+    }
+    for (old, (at, _)) in turned.iter().zip(&new.points) {
+        for (name, value) in [("x", at.x), ("y", at.y)] {
+            if let Some(attribute) = old.attribute_node(name)
+                && attribute.value().trim().parse() != Ok(value)
+            {
+                edits.replace(attribute.range_value(), value.to_string());
+            }
+        }
+    }
+    true
+}
+
+/// Add new contours at the end of the outline.
+fn add(
+    text: &str,
+    document: &Document,
+    changes: &Changes,
+    edits: &mut TextEdits,
+) -> Result<(), String> {
+    let mut written = String::new();
+    for item in &changes.added {
+        for contour in contours(&item.shapes)? {
+            contour.write(&mut written);
+        }
+    }
+    if written.is_empty() {
+        return Ok(());
+    }
+    let outline = document
+        .root_element()
+        .children()
+        .find(|it| it.has_tag_name("outline"));
+    let outline = outline.ok_or("the glyph has no outline")?.range();
+    let inside = text.get(outline.clone()).unwrap_or_default();
+    match inside.rfind("</") {
+        Some(at) => {
+            let at = outline.start + at;
+            let before = text.get(..at).unwrap_or_default();
+            let line = before.trim_end_matches([' ', '\t']).len();
+            edits.replace(line..line, written);
+        }
+        None => edits.replace(outline, format!("<outline>\n{written}  </outline>")),
+    }
+    Ok(())
+}
