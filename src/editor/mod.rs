@@ -237,15 +237,10 @@ impl Editor {
         self.hand.selection.active()
     }
 
-    /// Make a curve or a reference the active one; vertices of other curves are no longer selected.
-    pub fn activate(&mut self, curve: CurveId) {
-        if self.active() != Some(curve) {
-            let selection = &mut self.hand.selection;
-            let own: Vec<VertexId> = selection.of_curve(curve).map(|i| (curve, i)).collect();
-            selection.set(own);
-            selection.activate(curve);
-            self.operating().leave_stale();
-        }
+    /// Select a curve or a reference alone and make it the active one; its selected vertices stay selected.
+    pub fn activate(&mut self, item: CurveId) {
+        self.hand.selection.activate(item);
+        self.operating().leave_stale();
     }
 
     /// Select a vertex, alone or in addition.

@@ -27,12 +27,15 @@ pub struct Item {
     pub place: usize,
     /// Whether it is the active one.
     pub active: bool,
+    /// Whether it is selected.
+    pub selected: bool,
 }
 
 impl Item {
     /// List all curves, then all references.
     pub fn all(editor: &Editor) -> Vec<Self> {
         let (document, active) = (editor.document(), editor.active());
+        let selection = editor.hand().selection();
         let curves = document.curves().enumerate();
         let curves = curves.map(|(place, (id, curve))| Self {
             id,
@@ -44,6 +47,7 @@ impl Item {
             locked: curve.locked,
             place,
             active: active == Some(id),
+            selected: selection.has_item(id),
         });
         let references = document.references().enumerate();
         let references = references.map(|(place, (id, reference))| Self {
@@ -56,6 +60,7 @@ impl Item {
             locked: reference.locked,
             place,
             active: active == Some(id),
+            selected: selection.has_item(id),
         });
         curves.chain(references).collect()
     }
@@ -93,7 +98,7 @@ impl Item {
             false => widgets::swatch(ui, swatch, colour),
         }
         let label = format!("{} {}", self.noun(), self.name);
-        response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, self.active, &label));
+        response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, self.selected, &label));
     }
 
     /// Show the name; a tooltip shows all of one that does not fit.

@@ -95,10 +95,16 @@ impl CurveList {
             ui.spacing_mut().item_spacing.y = 0.0;
             let mut renamed = None;
             let items = Item::all(editor);
-            for row in rows(&items, |item| &item.group, &self.folded.clone()) {
+            let rows = rows(&items, |item| &item.group, &self.folded.clone());
+            let shown = rows.iter().filter_map(|row| match row {
+                Row::Item { item, .. } => Some(item.id),
+                Row::Group(_) => None,
+            });
+            let shown: Vec<CurveId> = shown.collect();
+            for row in rows {
                 let named = match row {
                     Row::Group(group) => self.group_ui(ui, editor, &group.into()),
-                    Row::Item { item, depth } => self.row_ui(ui, editor, item, depth),
+                    Row::Item { item, depth } => self.row_ui(ui, editor, item, (depth, &shown)),
                 };
                 renamed = named.or(renamed);
             }
@@ -168,9 +174,9 @@ impl CurveList {
         ui: &mut Ui,
         editor: &mut Editor,
         item: &Item,
-        depth: usize,
+        (depth, shown): (usize, &[CurveId]),
     ) -> Option<Named> {
-        let (row, response) = widgets::row(ui, Sense::click_and_drag(), item.active);
+        let (row, response) = widgets::row(ui, Sense::click_and_drag(), item.selected);
         let rect = indented(row, depth);
         item.paint(ui, rect, &response);
         if item.active && self.in_sight != Some(item.id) {
@@ -179,13 +185,8 @@ impl CurveList {
         item.reorder(ui, editor, row, &response);
         let renames = response.double_clicked();
         if response.clicked() && !renames {
-            match ui.input(|input| input.modifiers.command) && !item.active {
-                true => {
-                    let document = editor.document().clone();
-                    editor.hand_mut().toggle_curve(item.id, &document);
-                }
-                false => editor.activate(item.id),
-            }
+            let modifiers = ui.input(|input| input.modifiers);
+            pick(editor, item.id, (modifiers.command, modifiers.shift), shown);
         }
         if response.secondary_clicked() {
             editor.ask_for_menu(MenuOf::Item(item.id));
@@ -236,6 +237,24 @@ impl CurveList {
                 Named::Group(group) => rename_group(editor, group, &text),
             }
         }
+    }
+}
+
+/// Select the item of a row that is clicked: alone, with Ctrl beside others or no more, and with Shift all rows from
+/// the active one on, of those that are shown.
+fn pick(editor: &mut Editor, item: CurveId, (toggles, extends): (bool, bool), shown: &[CurveId]) {
+    let place = |id: CurveId| shown.iter().position(|it| *it == id);
+    let ends = editor.active().and_then(place).zip(place(item));
+    let range = ends.and_then(|(from, to)| shown.get(from.min(to)..=from.max(to)));
+    match (range.filter(|_| extends), toggles) {
+        (Some(range), false) => editor.hand_mut().select_items(range.iter().copied()),
+        (Some(range), true) => {
+            let selected = editor.hand().selection().items();
+            let both = selected.into_iter().chain(range.iter().copied());
+            editor.hand_mut().select_items(both);
+        }
+        (None, true) => editor.hand_mut().toggle_item(item),
+        (None, false) => editor.activate(item),
     }
 }
 

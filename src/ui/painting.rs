@@ -54,6 +54,10 @@ const CROSS: f32 = 4.0;
 /// Points of a ruler that texts are kept clear of.
 const RULER_STEPS: u32 = 64;
 
+/// The width of the halo of curves that are selected together, and its strength.
+const HALO: f32 = 7.0;
+const HALO_STRENGTH: f32 = 0.35;
+
 /// How faint the curve is as it was.
 const GHOST: f32 = 0.35;
 
@@ -68,6 +72,7 @@ pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     brush.legs(&scene.ghost.float, false, ghostly(1.0, float));
     brush.chain(&scene.ghost.curve, ghostly(1.5, curve));
     for curve in others.iter().chain(&active) {
+        brush.halo(curve);
         brush.bands(curve);
         brush.vertices(curve);
     }
@@ -140,6 +145,14 @@ impl Brush<'_> {
         }
     }
 
+    /// Paint what tells curves that are selected together from the others.
+    fn halo(&self, curve: &CurveScene) {
+        if curve.selected {
+            let colour = self.tokens.accent.gamma_multiply(HALO_STRENGTH);
+            self.chain(&curve.curve, Stroke::new(HALO, colour));
+        }
+    }
+
     /// Paint bands of rising and falling curvature; the curve on them keeps its colour.
     fn bands(&self, curve: &CurveScene) {
         let tokens = self.tokens;
@@ -159,7 +172,7 @@ impl Brush<'_> {
             return self.reference(curve, own);
         }
         // What tells curves apart fades less than what belongs to them.
-        let strength = match (curve.active, curve.locked) {
+        let strength = match (curve.active || curve.selected, curve.locked) {
             (true, false) => 1.0,
             (true, true) | (false, false) => 0.75,
             (false, true) => 0.5,

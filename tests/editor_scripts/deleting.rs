@@ -37,15 +37,22 @@ fn check_refused(script: &mut Script, remove: Removal, before: &Document) {
 }
 
 #[test]
-fn delete_and_cut_without_a_selection_name_the_command_for_curves() {
+fn a_curve_is_removed_by_its_own_command_or_once_it_is_named() {
     let delete = |editor: &mut Editor| editor.execute(Command::Delete).map(|_| ());
     let cut = |editor: &mut Editor| editor.cut().map(|_| ());
+    let mut script = Script::example("hull");
+    let before = script.editor.document().clone();
+    check_refused(&mut script, cut, &before);
+    assert_eq!(delete(&mut script.editor), Ok(()));
+    assert!(script.editor.document().is_same(&before));
+    assert!(
+        script.message().contains("Press Del again"),
+        "{}",
+        script.message()
+    );
+    script.command(Command::SelectAll);
     let removals: [Removal; 2] = [delete, cut];
     for remove in removals {
-        let mut script = Script::example("hull");
-        let before = script.editor.document().clone();
-        check_refused(&mut script, remove, &before);
-        script.command(Command::SelectAll);
         check_refused(&mut script, remove, &before);
     }
 }

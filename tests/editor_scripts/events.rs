@@ -228,6 +228,12 @@ impl Player {
     fn command(&mut self, command: Command) -> Result<(), String> {
         let is_offered = self.window.is_enabled(command);
         let was_dragging = self.window.is_dragging();
+        let names_items = self.window.message().is_some_and(|text| text.starts_with("Press Del"));
+        // A preview that ends brings back the selection before it.
+        let selected = match self.window.is_trying() {
+            true => usize::MAX,
+            false => self.window.selection().items().len(),
+        };
         let reply = self.window.execute(command);
         if let Err(refusal) = &reply
             && self.window.message() != Some(&refusal.0)
@@ -241,8 +247,8 @@ impl Player {
             _ if !is_offered => Done::Nothing,
             Command::Undo => Done::Undo,
             Command::Redo => Done::Redo,
-            Command::Delete => Done::Delete,
-            Command::DeleteCurve => Done::DeleteCurve,
+            Command::Delete if !names_items => Done::Delete,
+            Command::Delete | Command::DeleteCurve => Done::DeleteCurves(selected),
             Command::ConvertUnit(_) => Done::Convert,
             Command::Operation(operation) if operation.inputs == Inputs::Two => Done::Join,
             _ => Done::Other,

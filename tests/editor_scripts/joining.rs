@@ -182,14 +182,12 @@ fn the_second_curve_is_the_nearest_until_another_one_is_clicked_or_selected() {
     script.key(Key::Escape);
     script.command(Command::Undo);
     // By its row, beside the active one.
-    let document = script.editor.document().clone();
-    script.editor.hand_mut().toggle_curve(third, &document);
+    script.editor.hand_mut().toggle_item(third);
     assert_eq!(script.curve(), arc);
     script.try_out("join").expect("an operation");
     assert_eq!(second(&script), Some(third));
     script.key(Key::Escape);
-    let document = script.editor.document().clone();
-    script.editor.hand_mut().toggle_curve(third, &document);
+    script.editor.hand_mut().toggle_item(third);
     script.try_out("join").expect("an operation");
     assert_eq!(second(&script), Some(other));
 }

@@ -63,7 +63,20 @@ pub fn check_selection(document: &Document, selection: &Selection) -> Result<(),
             return Err(format!("vertex {vertex} is selected and does not exist"));
         }
     }
-    match selection.active() {
+    for item in selection.items() {
+        if document.name(item).is_none() {
+            return Err("what is selected is gone".into());
+        }
+    }
+    let mut curves = selection.vertices().map(|(curve, _)| curve);
+    if !curves.all(|curve| selection.has_item(curve)) {
+        return Err("vertices of a curve that is not selected are".into());
+    }
+    let active = selection.active();
+    if !selection.has_no_item() && !active.is_some_and(|active| selection.has_item(active)) {
+        return Err("curves are selected, and not the active one".into());
+    }
+    match active {
         None if document.is_empty() => Ok(()),
         None => Err("no curve is active".into()),
         Some(active) if document.name(active).is_none() => Err("what is active is gone".into()),
@@ -157,7 +170,12 @@ pub fn check_protected(before: &Snapshot, after: &Snapshot, done: Done) -> Resul
     }
     let gone = before.curves().iter();
     let gone = gone.filter(|(id, _)| after.curve(*id).is_none()).count();
-    if gone > usize::from(matches!(done, Done::DeleteCurve | Done::Join)) {
+    let most = match done {
+        Done::DeleteCurves(count) => count,
+        Done::Join => 1,
+        _ => 0,
+    };
+    if gone > most {
         return Err(format!("{gone} curves are gone after {done:?}"));
     }
     Ok(())

@@ -47,6 +47,7 @@ mod references;
 mod reshaping;
 mod script;
 mod selecting;
+mod selecting_several;
 mod several;
 mod snapshot;
 mod space;

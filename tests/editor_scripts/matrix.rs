@@ -49,8 +49,10 @@ impl Failures {
 }
 
 /// What is selected or goes on when a command is given.
-const SITUATIONS: [(&str, &[Event]); 9] = [
-    ("nothing selected", &[]),
+const SITUATIONS: [(&str, &[Event]); 11] = [
+    ("a curve selected", &[]),
+    ("nothing selected", &[Event::Command(Command::SelectNone)]),
+    ("several selected", &[Event::Panel(Panel::SelectItems)]),
     (
         "a vertex selected",
         &[Event::Click(Button::Primary, Place::Own(1))],

@@ -446,6 +446,7 @@ fn panel() -> impl Strategy<Value = Panel> {
     prop_oneof![
         10 => table(),
         8 => list(),
+        2 => Just(Panel::SelectItems),
         6 => end_fit().prop_map(Panel::EndFit),
         6 => dialogs(),
         6 => files().prop_map(Panel::File),
@@ -477,6 +478,7 @@ fn list() -> impl Strategy<Value = Panel> {
     let names = select(&["stem", "", "  ", "“hull”\n2", "curve 1"][..]);
     let asked = prop_oneof![
         4 => Just(OfCurve::Activate),
+        4 => Just(OfCurve::Toggle),
         1 => names.prop_map(OfCurve::Rename),
         1 => any::<Option<[u8; 3]>>().prop_map(OfCurve::Recolour),
         1 => (0..5usize).prop_map(OfCurve::Reorder),

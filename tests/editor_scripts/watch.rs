@@ -25,8 +25,8 @@ pub enum Done {
     Nothing,
     /// Vertices were deleted or cut.
     Delete,
-    /// The active curve was deleted as a whole.
-    DeleteCurve,
+    /// Curves and references are deleted, so many at most.
+    DeleteCurves(usize),
     /// An operation on two curves was begun, which may make one of them.
     Join,
     /// All lengths were converted to another unit: those of what is locked or hidden, too.

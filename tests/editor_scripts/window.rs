@@ -58,6 +58,8 @@ pub enum Panel {
     TypeWeight(usize, usize, f64),
     /// The list of curves or the inspector asks for something of a curve.
     OfCurve(usize, OfCurve),
+    /// All curves and references are selected in the list.
+    SelectItems,
     /// The end-fit panel asks for something.
     EndFit(EndFitAction),
     /// An angle or a factor is typed.
@@ -150,6 +152,8 @@ impl Panel {
 pub enum OfCurve {
     /// It is clicked.
     Activate,
+    /// It is clicked with Ctrl.
+    Toggle,
     /// Its name is typed.
     Rename(&'static str),
     /// Its colour is chosen.
@@ -509,6 +513,10 @@ impl Window {
                     self.editor.select_vertex(curve, vertex, *add);
                 }
             }
+            Panel::SelectItems => {
+                let items: Vec<CurveId> = self.document().all_ids().collect();
+                self.editor.hand_mut().select_items(items);
+            }
             Panel::OfCurve(number, asked) => {
                 if let Some((curve, _)) = self.curve(*number) {
                     self.tell_of(curve, *asked);
@@ -520,6 +528,7 @@ impl Window {
     fn tell_of(&mut self, curve: CurveId, asked: OfCurve) {
         let (label, edit) = match asked {
             OfCurve::Activate => return self.editor.activate(curve),
+            OfCurve::Toggle => return self.editor.hand_mut().toggle_item(curve),
             OfCurve::SetDegree(degree) => {
                 self.editor.activate(curve);
                 let operation = find("reinterpret-degree").expect("an operation");

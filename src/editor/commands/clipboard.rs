@@ -1,5 +1,6 @@
 //! Copy and paste, as the text of a project: other programs and other windows can read it.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -8,6 +9,8 @@ use crate::document::{
     Curve, CurveId, Document, Edit, Extras, LockedVertices, Reference, free_name, quoted,
 };
 use crate::editor::Editor;
+use crate::editor::commands::command::Command;
+use crate::editor::commands::items;
 use crate::editor::jobs::file_reading::Purpose;
 use crate::editor::jobs::filing::{Incoming, ReadDocument};
 use crate::editor::reply::{Note, Refusal, Reply, with_lines};
@@ -68,7 +71,7 @@ impl Editor {
         copied.map(|(text, _)| text)
     }
 
-    /// Copy the selected vertices and remove just them, or the active reference, as one step. The message shows
+    /// Copy the selected vertices and remove just them, or the selected references, as one step. The message shows
     /// the result.
     ///
     /// # Errors
@@ -76,17 +79,21 @@ impl Editor {
     pub fn cut(&mut self) -> Result<String, Refusal> {
         self.interrupt();
         let copied = text_of(&self.hand.selection, self.document());
-        let whole = self.active_reference();
-        let reply = copied.clone().and_then(|_| match whole {
-            Some((id, _)) => self.change(Edit::Remove(id)),
-            None => self.delete("Cut", "cut", true),
+        let (selection, document) = (&self.hand.selection, self.document());
+        let mut items = selection.items().into_iter();
+        let of_references =
+            selection.is_empty() && items.all(|id| document.reference(id).is_some());
+        let reply = copied.clone().and_then(|_| match of_references {
+            true => self.execute_on_items(Command::DeleteCurve),
+            false => self.delete("Cut", "cut", true),
         });
         self.tell(reply)?;
         copied
     }
 
     /// Add copies a little aside, named anew, they and their vertices unlocked, and not matched. What their file said of the curves
-    /// that Batten does not know, such as a number of their own, is not copied. The step begins with other edits.
+    /// that Batten does not know, such as a number of their own, is not copied. The step begins with other edits. The
+    /// copies are selected.
     pub(in crate::editor) fn add_copies(
         &mut self,
         label: &str,
@@ -135,7 +142,12 @@ impl Editor {
                 ..reference
             })));
         }
-        self.add(label, edits)
+        let before: BTreeSet<CurveId> = self.document().all_ids().collect();
+        let reply = self.add(label, edits)?;
+        let added = self.document().all_ids().filter(|id| !before.contains(id));
+        let added: Vec<CurveId> = added.collect();
+        self.hand.selection.set_items(added);
+        Ok(reply)
     }
 }
 
@@ -175,10 +187,7 @@ impl CopyForm {
                 (text, export.losses.to_string(), "a table")
             }
         };
-        let names = match &items[..] {
-            [only] => quoted(document.name(*only).unwrap_or_default()),
-            items => counted(items.len(), "item", "items"),
-        };
+        let names = items::named(document, &items);
         Ok((
             text,
             Note::told(with_lines(format!("{names} copied as {form}"), &losses)),
@@ -229,7 +238,7 @@ fn is_path(text: &str) -> bool {
     begins && text.contains(|letter: char| letter.is_ascii_digit()) && text.chars().all(is_data)
 }
 
-/// The text of the selection, or of the active curve or reference.
+/// The text of the selected vertices, or of the selected curves and references.
 fn text_of(selection: &Selection, document: &Document) -> Result<String, Refusal> {
     let selected: Vec<(CurveId, Arc<Curve>)> = document
         .curves()
@@ -240,29 +249,22 @@ fn text_of(selection: &Selection, document: &Document) -> Result<String, Refusal
         selection.of_curve(*id).count() == curve.polygon.vertices().len()
     };
     let unit = document.unit();
-    let active = selection.active();
-    let reference = active.and_then(|id| document.reference(id));
-    let reference = reference.filter(|_| selected.is_empty());
-    let text = if let Some(reference) = reference {
-        let copied = Reference {
-            extras: Extras::default(),
-            ..Reference::clone(reference)
+    let text = if selected.iter().all(is_whole) {
+        let whole: Vec<CurveId> = match selected.is_empty() {
+            true => selection.items(),
+            false => selected.iter().map(|(id, _)| *id).collect(),
         };
-        let document = Document::default().with_references([copied]);
-        exported(PROJECT.write(&document.with_unit(unit), None))
-    } else if selected.iter().all(is_whole) {
-        let whole = selected.into_iter().map(|(_, curve)| curve);
-        let mut copied: Vec<Curve> = whole.map(Arc::unwrap_or_clone).collect();
-        if copied.is_empty() {
-            let active = selection.active().and_then(|id| document.curve(id));
-            let curve = active.ok_or("There is no curve")?;
-            copied.push(Curve::clone(curve));
+        let (mut curves, mut references) = items::copies(document, &whole);
+        if curves.is_empty() && references.is_empty() {
+            return Err("There is no curve".into());
         }
-        for curve in &mut copied {
-            curve.extras = Extras::default();
+        for extras in (curves.iter_mut().map(|it| &mut it.extras))
+            .chain(references.iter_mut().map(|it| &mut it.extras))
+        {
+            *extras = Extras::default();
         }
-        let document = Document::from_curves(copied).with_unit(unit);
-        exported(PROJECT.write(&document, None))
+        let copied = Document::from_curves(curves).with_references(references);
+        exported(PROJECT.write(&copied.with_unit(unit), None))
     } else {
         let tables = selected
             .iter()
@@ -275,11 +277,9 @@ fn text_of(selection: &Selection, document: &Document) -> Result<String, Refusal
 
 /// The note that names the copied items.
 fn copied_note(selection: &Selection, document: &Document) -> Note {
-    let count = selection.vertices().len();
-    let active = selection.active().and_then(|id| document.name(id));
-    Note::told(match active {
-        Some(name) if count == 0 => format!("{} copied", quoted(name)),
-        _ => format!("{} copied", counted(count, "vertex", "vertices")),
+    Note::told(match selection.vertices().len() {
+        0 => format!("{} copied", items::named(document, &selection.items())),
+        count => format!("{} copied", counted(count, "vertex", "vertices")),
     })
 }
 

@@ -18,19 +18,19 @@ pub enum Command {
     Undo,
     /// Make the last undone step again.
     Redo,
-    /// Add a copy of the active curve.
+    /// Add copies of the selected curves and references.
     Duplicate,
-    /// Remove the selected vertices.
+    /// Remove the selected vertices, or the selected curves and references once they are named.
     Delete,
-    /// Remove the active curve.
+    /// Remove the selected curves and references.
     DeleteCurve,
-    /// Select all vertices of the active curve, then of all curves.
+    /// Select all vertices of the selected curves, then of all curves.
     SelectAll,
     /// Select nothing.
     SelectNone,
     /// Lock the selected vertices, or unlock them.
     ToggleVerticesLocked,
-    /// Make the active curve periodic, or open.
+    /// Make the selected curves periodic, or open.
     TogglePeriodic,
     /// Do an operation on the active curve.
     Operation(&'static Operation),
@@ -42,9 +42,9 @@ pub enum Command {
     AddReference(&'static ReferenceKind),
     /// Add a reference by formulas.
     AddFormula,
-    /// Show or hide the active curve.
+    /// Show or hide the selected curves and references.
     ToggleVisible,
-    /// Lock or unlock the active curve.
+    /// Lock or unlock the selected curves and references.
     ToggleLocked,
     /// Fit the selected vertices, or the active curve.
     Fit,
@@ -229,16 +229,18 @@ impl Command {
         let tooltip = match self {
             Self::Undo => "Undo the last step",
             Self::Redo => "Redo the last undone step",
-            Self::Duplicate => "Add a copy of the active curve",
-            Self::Delete => "Delete the selected vertices",
-            Self::DeleteCurve => "Delete the active curve",
-            Self::SelectAll => "Select all vertices of the active curve; again, of all curves",
+            Self::Duplicate => "Add copies of the selected curves and references",
+            Self::Delete => {
+                "Delete the selected vertices; without any, Del twice deletes the curves"
+            }
+            Self::DeleteCurve => "Delete the selected curves and references",
+            Self::SelectAll => "Select all vertices of the selected curves; again, of all curves",
             Self::SelectNone => "Deselect all",
             Self::ToggleVerticesLocked => {
                 "Lock the selected vertices so that nothing moves them, or unlock them"
             }
             Self::TogglePeriodic => {
-                "Join the curve's end to its start, or open it; the polygon stays"
+                "Join the end of each selected curve to its start, or open it; the polygons stay"
             }
             Self::Operation(operation) => operation.help,
             Self::AddReference(kind) => return format!("{}: {}", kind.label, kind.help),
@@ -249,8 +251,10 @@ impl Command {
             Self::ConvertUnit(_) => {
                 "Convert every number of the document to this unit; everything keeps its size"
             }
-            Self::ToggleVisible => "Show or hide the active curve",
-            Self::ToggleLocked => "Protect the active curve's shape from edits, or release it",
+            Self::ToggleVisible => "Show or hide the selected curves and references",
+            Self::ToggleLocked => {
+                "Protect the shapes of selected curves from edits, or release them"
+            }
             Self::Fit => {
                 "Show the selected vertices, or the active curve if fewer than two are selected"
             }

@@ -3,24 +3,20 @@
 use crate::document::{Document, Edit, quoted};
 use crate::editor::Editor;
 use crate::editor::commands::command::Command;
-use crate::editor::reply::{Note, Reply};
+use crate::editor::commands::items::{self, Change};
+use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::same_shape::removal;
 use crate::editor::selection::Selection;
 use crate::geometry::counted;
 
 impl Editor {
-    /// Remove the selected vertices, or the active reference, which has none. The others stay in their places, or all
-    /// move so that the curve keeps its shape.
+    /// Remove the selected vertices. The others stay in their places, or all move so that the curve keeps its shape.
     pub(in crate::editor) fn delete(
         &mut self,
         verb: &str,
         done: &str,
         vertices_stay: bool,
     ) -> Reply {
-        let active = self.active().filter(|_| self.hand.selection.is_empty());
-        if let Some(id) = active.filter(|id| self.document().reference(*id).is_some()) {
-            return self.change(Edit::Remove(id));
-        }
         let (edits, told) = edits(&self.hand.selection, self.document(), vertices_stay)?;
         let count = counted(self.hand.selection.vertices().len(), "vertex", "vertices");
         self.apply(&format!("{verb} {count}"), edits)?;
@@ -28,6 +24,24 @@ impl Editor {
         let told = [vec![format!("{count} {done}")], told].concat();
         Ok(Note::done(told.join(". ")))
     }
+}
+
+/// The question before curves are removed, which names them; `None` where the message that is shown is that question.
+/// References alone, which are seen selected, are removed without one.
+pub(super) fn question(
+    selection: &Selection,
+    document: &Document,
+    shown: Option<&Message>,
+) -> Result<Option<Note>, Refusal> {
+    if selection.has_no_item() {
+        return Err("Nothing is selected: click a curve or a vertex".into());
+    }
+    let change = Change::removal(document, &selection.items())?;
+    let names = items::named(document, &change.taken);
+    let asked = Note::told(format!("Press Del again to delete {names}"));
+    let of_curves = change.taken.iter().any(|id| document.curve(*id).is_some());
+    let is_answered = shown == Message::of(&Ok(asked.clone())).as_ref();
+    Ok((of_curves && !is_answered).then_some(asked))
 }
 
 /// The edits that remove the selected vertices, and what they do to the curves. A curve is never removed that way.

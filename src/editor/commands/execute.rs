@@ -1,13 +1,15 @@
 //! Executing commands.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
+use crate::document::{Curve, CurveId, Document, Edit, Reference};
 use crate::editor::commands::command::Command;
+use crate::editor::commands::deleting;
+use crate::editor::commands::items::{self, Change};
 use crate::editor::commands::locking;
 use crate::editor::commands::references::{addition, new_formula, new_reference};
-use crate::editor::polygon_edits::periodicity;
-use crate::editor::reply::{Note, Reply, with_lines};
+use crate::editor::reply::{Message, Note, Reply, with_lines};
 use crate::editor::selection::{Selection, VertexId};
 use crate::editor::view::layers::Layer;
 use crate::editor::view::{EvoluteCrowd, Look};
@@ -28,7 +30,7 @@ impl Editor {
         if !command.is_enabled(self) {
             return Ok(Note::silent());
         }
-        self.message = None;
+        let shown = self.message.take();
         let reply = match command {
             Command::Undo => Ok(self.undo()),
             Command::Redo => {
@@ -42,7 +44,7 @@ impl Editor {
             }
             _ => {
                 self.interrupt();
-                self.execute_idle(command)
+                self.execute_idle(command, shown)
             }
         };
         self.tell(reply)
@@ -84,14 +86,16 @@ impl Editor {
         undone.map_or_else(Note::silent, |label| Note::told(format!("Undone: {label}")))
     }
 
-    /// Undo or redo a step, and activate the first item that it brings back. Returns the step's label.
+    /// Undo or redo a step, and select the items that it brings back. Returns the step's label.
     fn step(&mut self, take: fn(&mut Workspace) -> Option<String>) -> Option<String> {
-        let before: Vec<CurveId> = self.document().all_ids().collect();
+        let before: BTreeSet<CurveId> = self.document().all_ids().collect();
         let label = take(&mut self.workspace);
         self.document_changed();
-        let returned = self.document().all_ids().find(|id| !before.contains(id));
-        if let Some(returned) = returned {
-            self.activate(returned);
+        let returned = self.document().all_ids().filter(|id| !before.contains(id));
+        let returned: Vec<CurveId> = returned.collect();
+        if !returned.is_empty() {
+            self.hand.selection.set_items(returned);
+            self.operating().leave_stale();
         }
         label
     }
@@ -141,8 +145,16 @@ impl Editor {
         }
     }
 
-    fn execute_idle(&mut self, command: Command) -> Reply {
+    /// Execute a command once nothing is previewed; `shown` is the message until then.
+    fn execute_idle(&mut self, command: Command, shown: Option<Message>) -> Reply {
         match command {
+            Command::Delete if self.hand.selection.is_empty() => {
+                let (selection, document) = (&self.hand.selection, self.workspace.document());
+                return match deleting::question(selection, document, shown.as_ref())? {
+                    Some(question) => Ok(question),
+                    None => self.execute_on_items(Command::DeleteCurve),
+                };
+            }
             Command::Delete => {
                 let vertices_stay = self.hand.settings.vertices_stay;
                 return self.delete("Delete", "deleted", vertices_stay);
@@ -158,7 +170,7 @@ impl Editor {
             Command::SelectAll => {
                 select_all(&mut self.hand.selection, self.workspace.document())?;
             }
-            Command::SelectNone => self.hand.selection.clear(),
+            Command::SelectNone => self.hand.selection.set_items([]),
             Command::Tool(tool) => self.hand.use_tool(tool),
             Command::Operation(operation) => return self.preview_operation(operation),
             Command::AddReference(_) | Command::AddFormula => {
@@ -193,81 +205,52 @@ impl Editor {
                     "Converted to {name}: everything keeps its size"
                 )));
             }
-            _ => {
-                let active = self.active().ok_or("There is no curve")?;
-                return self.execute_on(command, active);
-            }
+            _ => return self.execute_on_items(command),
         }
         Ok(Note::silent())
     }
 
-    /// Execute a command on the active curve or reference.
-    fn execute_on(&mut self, command: Command, id: CurveId) -> Reply {
-        let curve = self.document().curve(id).cloned();
-        let reference = self.document().reference(id).cloned();
-        match command {
+    /// Execute a command on the selected curves and references, as one step. What it leaves out is told.
+    pub(in crate::editor) fn execute_on_items(&mut self, command: Command) -> Reply {
+        let items = self.hand.selection.items();
+        let document = self.document();
+        let change = match command {
             Command::Duplicate => {
-                let label = format!("Duplicate {}", noun(self.document(), id));
-                let curves = curve.iter().map(|curve| Curve::clone(curve)).collect();
-                let references = reference.iter().map(|it| Reference::clone(it)).collect();
-                self.add_copies(&label, curves, references, Vec::new())
+                let label = format!("Duplicate {}", items::noun(document, &items));
+                let (curves, references) = items::copies(document, &items);
+                return self.add_copies(&label, curves, references, Vec::new());
             }
-            Command::DeleteCurve => self.change(Edit::Remove(id)),
-            Command::TogglePeriodic => {
-                let Some(curve) = curve else {
-                    return Ok(Note::silent());
-                };
-                let periodic = !curve.polygon.is_periodic();
-                let label = if periodic {
-                    "Make periodic"
-                } else {
-                    "Open curve"
-                };
-                let edit = periodicity(id, &curve, periodic);
-                let edit = edit.map_err(|error| format!("{}: {error}", quoted(&curve.name)))?;
-                self.apply(label, vec![edit])
-            }
-            Command::ToggleVisible => self.change(Edit::SetVisible {
-                curve: id,
-                visible: !self.document().is_visible(id),
-            }),
-            Command::ToggleLocked => {
-                let is_locked = curve.map(|it| it.locked).or(reference.map(|it| it.locked));
-                self.change(Edit::SetLocked {
-                    curve: id,
-                    locked: !is_locked.unwrap_or(false),
-                })
-            }
-            _ => Ok(Note::silent()),
-        }
+            Command::DeleteCurve => Change::removal(document, &items)?,
+            Command::TogglePeriodic => Change::periodicity(document, &items)?,
+            Command::ToggleVisible => Change::visibility(document, &items)?,
+            Command::ToggleLocked => Change::lock(document, &items)?,
+            _ => return Ok(Note::silent()),
+        };
+        let deleted = match command {
+            Command::DeleteCurve => format!("{} deleted\n", items::named(document, &change.taken)),
+            _ => String::new(),
+        };
+        let note = self.apply(&change.label, change.edits)?;
+        let lines = with_lines(deleted + &note.text, &change.left_out.join("\n"));
+        Ok(match lines.is_empty() {
+            true => note,
+            false => Note::done(lines),
+        })
     }
 
-    /// Make one edit as a step that is named after it. The reply is told. Locked curves are not removed.
+    /// Make one edit as a step that is named after it. The reply is told.
     ///
     /// # Errors
     /// [`Refusal`] if it cannot be made.
     pub fn change(&mut self, edit: Edit) -> Reply {
-        let document = self.document();
-        let label = step_label(&edit, document);
-        let Edit::Remove(id) = edit else {
-            return self.apply(&label, vec![edit]);
-        };
-        let name = document.name(id).unwrap_or_default();
-        let deleted = format!("{} deleted", quoted(name));
-        if let Some(curve) = document.curve(id) {
-            curve.check_unlocked()?;
-        }
-        if let Some(reference) = document.reference(id) {
-            reference.check_unlocked()?;
-        }
-        let note = self.apply(&label, vec![edit])?;
-        Ok(Note::done(with_lines(deleted, &note.text)))
+        let label = step_label(&edit, self.document());
+        self.apply(&label, vec![edit])
     }
 }
 
 /// Name the step that an edit of a curve or reference makes.
 fn step_label(edit: &Edit, document: &Document) -> String {
-    let of = |verb: &str, id: CurveId| format!("{verb} {}", noun(document, id));
+    let of = |verb: &str, id: CurveId| format!("{verb} {}", items::noun(document, &[id]));
     match edit {
         Edit::SetVisible { curve, visible } => of(if *visible { "Show" } else { "Hide" }, *curve),
         Edit::SetLocked { curve, locked } => of(if *locked { "Lock" } else { "Unlock" }, *curve),
@@ -275,21 +258,12 @@ fn step_label(edit: &Edit, document: &Document) -> String {
         Edit::SetGroup { .. } => "Move to group".to_owned(),
         Edit::RenameGroup { .. } => "Rename group".to_owned(),
         Edit::Recolour { curve, .. } => of("Recolour", *curve),
-        Edit::Remove(curve) => of("Delete", *curve),
         Edit::SetVerticesLocked { locked, .. } => locking::label(*locked).to_owned(),
         _ => "Edit curve".to_owned(),
     }
 }
 
-/// The word for a curve or a reference in labels.
-fn noun(document: &Document, id: CurveId) -> &'static str {
-    match document.reference(id) {
-        Some(_) => "reference",
-        None => "curve",
-    }
-}
-
-/// Select all vertices of the active curve; if they are selected, those of all visible curves.
+/// Select all vertices of the selected curves; if they are selected, those of all visible curves.
 fn select_all(selection: &mut Selection, document: &Document) -> Result<(), Refusal> {
     let active = selection.active();
     if let Some(curve) = active.and_then(|id| document.curve(id)) {
@@ -299,7 +273,8 @@ fn select_all(selection: &mut Selection, document: &Document) -> Result<(), Refu
     let all = visible
         .flat_map(|(id, curve)| (0..curve.polygon.vertices().len()).map(move |index| (id, index)));
     let all: Vec<VertexId> = all.collect();
-    let own = all.iter().copied().filter(|(id, _)| Some(*id) == active);
+    let items = selection.items();
+    let own = all.iter().copied().filter(|(id, _)| items.contains(id));
     let own: Vec<VertexId> = own.collect();
     let is_selected = own.iter().all(|vertex| selection.contains(*vertex));
     selection.set(if is_selected { all } else { own });

@@ -7,6 +7,7 @@ mod end_fit;
 mod execute;
 mod files;
 mod foreseen;
+mod items;
 mod locking;
 mod merging;
 mod operating;

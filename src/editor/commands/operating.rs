@@ -80,7 +80,7 @@ impl Editor {
             |id: &CurveId| operation.inputs != Inputs::Points || document.reference(*id).is_some();
         let active = selection.active().filter(fits);
         let others = self.document().ids().filter(|id| Some(*id) != active);
-        let others = others.filter(|id| selection.of_curve(*id).next().is_some());
+        let others = others.filter(|id| selection.has_item(*id));
         let mut others: Vec<CurveId> = others.collect();
         if operation.inputs == Inputs::Two && others.is_empty() {
             others.extend(active.and_then(|active| nearest_curve(document, active)));

@@ -1,6 +1,7 @@
 //! What menus and buttons show of a command now.
 
 use super::command::Command;
+use super::items;
 use super::locking;
 use crate::document::CurveId;
 use crate::editor::Editor;
@@ -9,11 +10,8 @@ use crate::editor::operating::OperationInProgress;
 impl Command {
     /// Whether the command can be given now.
     pub fn is_enabled(self, editor: &Editor) -> bool {
-        let curve = editor.active_curve();
         let active = editor.active().is_some();
-        let editable = curve
-            .as_ref()
-            .is_some_and(|(_, curve)| curve.check_editable().is_ok());
+        let (document, items) = (editor.document(), editor.hand.selection.items());
         let can_compare =
             |id: CurveId| editor.active() != Some(id) && editor.document().name(id).is_some();
         match self {
@@ -28,12 +26,14 @@ impl Command {
             | Command::DeleteCurve
             | Command::ToggleVisible
             | Command::ToggleLocked => active,
-            Command::TogglePeriodic => editable,
+            Command::TogglePeriodic => {
+                let mut curves = items.iter().filter_map(|id| document.curve(*id));
+                curves.any(|curve| curve.check_editable().is_ok())
+            }
             Command::Operation(operation) => editor.input_of(operation).is_ok(),
             Command::SelectAll | Command::Fit | Command::FitAll => !editor.document().is_empty(),
-            Command::SelectNone | Command::ToggleVerticesLocked => {
-                !editor.hand.selection.is_empty()
-            }
+            Command::SelectNone => !editor.hand.selection.has_no_item(),
+            Command::ToggleVerticesLocked => !editor.hand.selection.is_empty(),
             Command::ConvertUnit(unit) => {
                 let before = editor.document().unit();
                 before.is_some_and(|before| before != unit)
@@ -48,7 +48,7 @@ impl Command {
 
     /// Whether the switch is on; `None` for a command that is no switch.
     pub fn is_checked(self, editor: &Editor) -> Option<bool> {
-        let curve = editor.active_curve().map(|(_, curve)| curve);
+        let (document, items) = (editor.document(), editor.hand.selection.items());
         let can_compare =
             |id: CurveId| editor.active() != Some(id) && editor.document().name(id).is_some();
         match self {
@@ -71,16 +71,11 @@ impl Command {
             }
             Command::View(view) => Some(editor.view.viewport.orientation == view.orientation()),
             Command::SetUnit(unit) => Some(editor.document().unit() == unit),
-            Command::TogglePeriodic => Some(curve.is_some_and(|c| c.polygon.is_periodic())),
+            Command::TogglePeriodic => Some(items::are_periodic(document, &items)),
             Command::ToggleVisible => {
-                let active = editor.active();
-                Some(active.is_some_and(|id| editor.document().is_visible(id)))
+                Some(!items.is_empty() && items::are_visible(document, &items))
             }
-            Command::ToggleLocked => {
-                let reference = editor.active_reference();
-                let locked = reference.map(|(_, reference)| reference.locked);
-                Some(locked.or(curve.map(|curve| curve.locked)).unwrap_or(false))
-            }
+            Command::ToggleLocked => Some(!items.is_empty() && items::are_locked(document, &items)),
             _ => None,
         }
     }
@@ -99,10 +94,12 @@ impl Command {
                 letters.as_str()
             )
         };
-        if let (Some(_), Command::Duplicate | Command::DeleteCurve) =
-            (editor.active_reference(), self)
-        {
-            return self.label().replace("curve", "reference");
+        if let Command::Duplicate | Command::DeleteCurve = self {
+            let items = editor.hand.selection.items();
+            if !items.is_empty() {
+                let noun = items::noun(editor.document(), &items);
+                return self.label().replace("curve", &noun);
+            }
         }
         match self {
             Command::Compare(Some(id)) => editor.document().name(id).map(str::to_owned),

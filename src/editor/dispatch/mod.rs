@@ -235,7 +235,7 @@ impl Editor {
             }
         };
         if let Some(id) = target.item() {
-            self.activate(id);
+            self.hand.selection.focus(id);
         }
         self.hand.ask_for_menu_about(target);
         self.document_changed();
@@ -284,7 +284,9 @@ impl Editor {
                 Effect::Select(vertices) => self.hand.selection.set(vertices),
                 Effect::SelectMore(vertices) => self.hand.selection.add(vertices),
                 Effect::ToggleSelected(vertex) => self.hand.selection.toggle(vertex),
-                Effect::Activate(curve) => self.hand.selection.activate(curve),
+                Effect::SelectItems(items) => self.hand.selection.set_items(items),
+                Effect::ToggleItem(item) => self.hand.selection.toggle_item(item),
+                Effect::Activate(item) => self.hand.selection.focus(item),
                 Effect::Look(look) => self.look(look),
                 Effect::Set(settings) => self.hand.settings = *settings,
                 Effect::Say(text) if self.workspace.preview().is_some() => {

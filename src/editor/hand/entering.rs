@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::document::{CurveId, Document};
+use crate::document::CurveId;
 use crate::editor::hand::drawing_plane::{Leg, LegLocks};
 use crate::editor::hand::hand::Hand;
 use crate::editor::hand::tools::{
@@ -63,9 +63,14 @@ impl Hand {
         })
     }
 
-    /// Select a curve beside the active one, or take it back.
-    pub fn toggle_curve(&mut self, curve: CurveId, document: &Document) {
-        self.selection.toggle_curve(curve, document);
+    /// Select a curve or a reference beside others, or take it back.
+    pub fn toggle_item(&mut self, item: CurveId) {
+        self.selection.toggle_item(item);
+    }
+
+    /// Select just these curves and references.
+    pub fn select_items(&mut self, items: impl IntoIterator<Item = CurveId>) {
+        self.selection.set_items(items);
     }
 
     /// The locked length and angle of the leg, while a tool sets vertices.

@@ -100,7 +100,7 @@ impl Hand {
             selection.set(target.vertices.iter().copied());
         }
         if let Some((curve, _)) = target.vertices.first() {
-            selection.activate(*curve);
+            selection.focus(*curve);
         }
         if let Some(end) = target.end {
             self.settings.end_fit.end = end;

@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use crate::analysis::SampledCurve;
 use crate::document::{Colour, Curve, CurveId};
+use crate::editor::selection::Selection;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::curve_outlines::{CurveOutlines, PieceTrend};
 use crate::editor::view::density::{disc, disc_among_kept};
@@ -69,12 +70,12 @@ impl View {
         scenes.resize_with(references.len() + curves.len(), CurveScene::default);
         let (behind, before) = scenes.split_at_mut(references.len());
         for ((id, reference), scene) in references.into_iter().zip(behind) {
-            scene.begin(id, active, reference.locked, reference.colour);
+            scene.begin(id, shown.selection, reference.locked, reference.colour);
             scene.is_reference = true;
             self.draw_reference(shown, id, view, scene);
         }
         for ((id, curve), scene) in curves.into_iter().zip(before) {
-            scene.begin(id, active, curve.locked, curve.colour);
+            scene.begin(id, shown.selection, curve.locked, curve.colour);
             self.draw_curve(shown, id, curve, view, scene);
         }
     }
@@ -275,17 +276,12 @@ impl View {
 
 impl CurveScene {
     /// Begin the scene of a curve or a reference, with the room of what it held.
-    fn begin(
-        &mut self,
-        id: CurveId,
-        active: Option<CurveId>,
-        locked: bool,
-        colour: Option<Colour>,
-    ) {
+    fn begin(&mut self, id: CurveId, selection: &Selection, locked: bool, colour: Option<Colour>) {
         self.clear();
         self.id = Some(id);
         self.is_reference = false;
-        self.active = Some(id) == active;
+        self.active = Some(id) == selection.active();
+        self.selected = selection.has_several_items() && selection.has_item(id);
         self.locked = locked;
         self.colour = colour;
     }

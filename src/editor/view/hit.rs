@@ -7,6 +7,7 @@ use crate::editor::selection::VertexId;
 use crate::editor::view::density::{self, SeenChain};
 use crate::editor::view::feature_report::FeatureRow;
 use crate::editor::view::layers::Layer;
+use crate::editor::view::outline::ViewBox;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::view::View;
 
@@ -287,20 +288,74 @@ impl<'a> Sight<'a> {
         (distance <= reach * self.viewport().pixel()).then_some(hit)
     }
 
-    /// List the vertices inside a box, by opposite corners on the canvas.
+    /// List the vertices inside a box, by opposite corners on the canvas: those of selected curves that are not
+    /// locked. A curve that is alone on the canvas needs not be selected.
     pub(in crate::editor) fn vertices_in_box(&self, a: DVec2, b: DVec2) -> Vec<(CurveId, usize)> {
         if !self.shown.layers.shows(Layer::Float) {
             return Vec::new();
         }
-        let [a, b] = [a, b].map(|corner| self.viewport().to_model(corner));
-        let (low, high) = (a.min(b), a.max(b));
+        let within = self.view_box(a, b);
+        let selection = self.shown.selection;
+        let is_alone = self.curves().take(2).count() == 1 && selection.has_no_item();
         let curves = self.curves().filter(|(_, curve)| !curve.locked);
+        let curves = curves.filter(|(id, _)| is_alone || selection.has_item(*id));
         let vertices = curves.flat_map(|(id, curve)| {
             let vertices = curve.polygon.vertices().iter().enumerate();
             vertices.map(move |(index, vertex)| ((id, index), self.viewport().flatten(*vertex)))
         });
-        let within = vertices.filter(|(_, at)| at.cmpge(low).all() && at.cmple(high).all());
-        within.map(|(id, _)| id).collect()
+        let found = vertices.filter(|(_, at)| within.holds(*at));
+        found.map(|(id, _)| id).collect()
+    }
+
+    /// List the curves and references that a box meets, by opposite corners on the canvas, as far as they can be
+    /// edited.
+    pub(in crate::editor) fn items_in_box(&self, a: DVec2, b: DVec2) -> Vec<CurveId> {
+        let document = self.document();
+        let within = self.view_box(a, b);
+        let curves = document
+            .curves()
+            .filter(|(_, it)| it.check_editable().is_ok());
+        let curves = self.shown.layers.shows(Layer::Curve).then_some(curves);
+        let references = document.references();
+        let references = references.filter(|(_, it)| it.check_editable().is_ok());
+        let curves = curves.into_iter().flatten().map(|(id, _)| id);
+        let items = curves.chain(references.map(|(id, _)| id));
+        items.filter(|id| self.meets(*id, &within)).collect()
+    }
+
+    /// Whether a curve or a reference is seen to meet a box.
+    fn meets(&self, id: CurveId, within: &ViewBox) -> bool {
+        let known = self
+            .view
+            .analyses
+            .sampled(id)
+            .zip(self.view.outlines.get(id));
+        let Some((sampled, outlined)) = known else {
+            return false;
+        };
+        if !outlined.curve.bounds().may_meet(within) {
+            return false;
+        }
+        let mut last = None;
+        (0..sampled.samples.pieces()).any(|piece| {
+            let points = sampled.samples.piece(piece).iter();
+            let mut points = points.map(|sample| self.viewport().flatten(sample.point));
+            points.any(|at| {
+                let before = last.replace(at);
+                within.holds(at)
+                    || before.is_some_and(|before| within.seen_length(before, at) > 0.0)
+            })
+        })
+    }
+
+    /// The box of the view plane between two opposite corners on the canvas.
+    fn view_box(&self, a: DVec2, b: DVec2) -> ViewBox {
+        let [a, b] = [a, b].map(|corner| self.viewport().to_model(corner));
+        ViewBox {
+            low: a.min(b),
+            high: a.max(b),
+            pixel: self.viewport().pixel(),
+        }
     }
 
     /// The references that can be hit.

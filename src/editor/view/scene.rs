@@ -38,6 +38,8 @@ pub struct CurveScene {
     pub is_reference: bool,
     /// Whether it is the active one; the others step back.
     pub active: bool,
+    /// Whether it is selected with others.
+    pub selected: bool,
     /// Whether it is locked.
     pub locked: bool,
     /// Its own colour.

@@ -106,14 +106,7 @@ impl Tool for SelectTool {
             (State::Moving(_) | State::MovingPoint(_) | State::Reference(_), Gesture::Cancel) => {
                 vec![Effect::Abort]
             }
-            (State::Boxing { from, .. }, Gesture::DragEnd(to)) => {
-                let found = context.hits.vertices_in_box(from, to);
-                if context.modifiers.shift {
-                    vec![Effect::SelectMore(found)]
-                } else {
-                    vec![Effect::Select(found)]
-                }
-            }
+            (State::Boxing { from, .. }, Gesture::DragEnd(to)) => boxed(from, to, context),
             (State::Scaling { scale, .. }, Gesture::Cancel) => {
                 let mut comb = context.hits.view.comb;
                 comb.scale = scale;
@@ -166,7 +159,11 @@ impl Tool for SelectTool {
             State::MovingPoint(moving) => moving.hint(context),
             State::Reference(drag) => drag.hint(context.snapping),
             State::Boxing { .. } => {
-                "Release to select what is in the box; Shift adds to the selection".into()
+                match context.selection.has_no_item() {
+                    true => "Release to select the curves in the box; Shift adds to the selection",
+                    false => "Release to select the vertices of selected curves in the box, or else the curves; Shift adds",
+                }
+                .into()
             }
             State::Scaling { .. } => "Drag the tip to scale the curvature comb".into(),
             State::Idle => {
@@ -474,11 +471,47 @@ fn click(place: DVec2, context: &Context) -> Vec<Effect> {
     let curve = context.hits.curve(place).map(|hit| hit.curve);
     let curve = curve.or_else(|| context.hits.leg(place, LEG_REACH).map(|hit| hit.curve));
     match curve {
-        // Shift keeps what is selected, and no other curve's vertices than the active one's are.
-        Some(_) if context.modifiers.shift && !context.selection.is_empty() => Vec::new(),
-        Some(curve) => vec![Effect::Select(Vec::new()), Effect::Activate(curve)],
+        // A click that misses a vertex of the curve takes back no selected vertex.
+        Some(curve)
+            if context.modifiers.shift && context.selection.of_curve(curve).next().is_some() =>
+        {
+            Vec::new()
+        }
+        Some(curve) if context.modifiers.shift => vec![Effect::ToggleItem(curve)],
+        Some(curve) => vec![Effect::Select(Vec::new()), Effect::SelectItems(vec![curve])],
         None if context.modifiers.shift => Vec::new(),
-        None => vec![Effect::Select(Vec::new())],
+        None => vec![deselected(context)],
+    }
+}
+
+/// Deselect the vertices, or the curves and references where no vertex is selected.
+fn deselected(context: &Context) -> Effect {
+    match context.selection.is_empty() {
+        true => Effect::SelectItems(Vec::new()),
+        false => Effect::Select(Vec::new()),
+    }
+}
+
+/// Select what is in a box: vertices of selected curves, or else curves and references.
+fn boxed(from: DVec2, to: DVec2, context: &Context) -> Vec<Effect> {
+    let vertices = context.hits.vertices_in_box(from, to);
+    let adds = context.modifiers.shift;
+    if !vertices.is_empty() {
+        return vec![match adds {
+            true => Effect::SelectMore(vertices),
+            false => Effect::Select(vertices),
+        }];
+    }
+    let items = context.hits.items_in_box(from, to);
+    match (adds, items.is_empty()) {
+        (true, true) => Vec::new(),
+        (false, true) => vec![deselected(context)],
+        (true, false) => {
+            let selected = context.document.all_ids();
+            let selected = selected.filter(|id| context.selection.has_item(*id));
+            vec![Effect::SelectItems(selected.chain(items).collect())]
+        }
+        (false, false) => vec![Effect::Select(Vec::new()), Effect::SelectItems(items)],
     }
 }
 
@@ -489,7 +522,10 @@ fn double_click(place: DVec2, context: &Context) -> Vec<Effect> {
     match context.hits.curve(place) {
         Some(hit) => {
             let all = (0..vertex_count(hit.curve, context)).map(|index| (hit.curve, index));
-            vec![Effect::Activate(hit.curve), Effect::Select(all.collect())]
+            vec![
+                Effect::SelectItems(vec![hit.curve]),
+                Effect::Select(all.collect()),
+            ]
         }
         None => vec![Effect::Look(Look::All)],
     }
@@ -502,7 +538,7 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
         Key::Right => DVec2::X,
         Key::Up => DVec2::Y,
         Key::Down => DVec2::NEG_Y,
-        Key::Escape => return vec![Effect::Select(Vec::new())],
+        Key::Escape => return vec![deselected(context)],
         _ => return Vec::new(),
     };
     let step = match (context.modifiers.shift, context.modifiers.ctrl) {

@@ -78,7 +78,11 @@ pub enum Effect {
     SelectMore(Vec<VertexId>),
     /// Turn round whether a vertex is selected.
     ToggleSelected(VertexId),
-    /// Make a curve the active one.
+    /// Select just these curves and references, with those of their vertices that are selected.
+    SelectItems(Vec<CurveId>),
+    /// Turn round whether a curve or a reference is selected.
+    ToggleItem(CurveId),
+    /// Make a curve or a reference the active one, of those that are selected or alone.
     Activate(CurveId),
     /// Change how the model is seen.
     Look(Look),

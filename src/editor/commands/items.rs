@@ -1,0 +1,166 @@
+//! Commands on the selected curves and references: the edits of one step, and what it leaves out.
+
+use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
+use crate::editor::polygon_edits::periodicity;
+use crate::editor::reply::Refusal;
+use crate::io::counted_items;
+
+/// The most names of items that a message lists.
+const MOST_NAMES: usize = 3;
+
+/// The step of a command on several items.
+pub(super) struct Change {
+    /// The label of the step.
+    pub label: String,
+    /// The edits.
+    pub edits: Vec<Edit>,
+    /// The items that are changed.
+    pub taken: Vec<CurveId>,
+    /// Why the others are left out, a sentence each.
+    pub left_out: Vec<String>,
+}
+
+impl Change {
+    /// Make the edit of each item. Those without one are left out; without any edit the first reason counts.
+    fn of(
+        items: impl IntoIterator<Item = CurveId>,
+        label: impl Fn(&[CurveId]) -> String,
+        edit: impl Fn(CurveId) -> Result<Edit, String>,
+    ) -> Result<Self, Refusal> {
+        let (mut edits, mut taken, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
+        for item in items {
+            match edit(item) {
+                Ok(edit) => {
+                    edits.push(edit);
+                    taken.push(item);
+                }
+                Err(reason) => left_out.push(reason),
+            }
+        }
+        if let (true, Some(reason)) = (edits.is_empty(), left_out.first()) {
+            return Err(Refusal(reason.clone()));
+        }
+        Ok(Self {
+            label: label(&taken),
+            edits,
+            taken,
+            left_out,
+        })
+    }
+
+    /// Remove the items that are not locked.
+    pub fn removal(document: &Document, items: &[CurveId]) -> Result<Self, Refusal> {
+        let label = |taken: &[CurveId]| format!("Delete {}", noun(document, taken));
+        let check = |id| match (document.curve(id), document.reference(id)) {
+            (Some(curve), _) => curve.check_unlocked(),
+            (_, Some(reference)) => reference.check_unlocked(),
+            _ => Ok(()),
+        };
+        Self::of(items.iter().copied(), label, |id| {
+            check(id).map_err(|error| error.to_string())?;
+            Ok(Edit::Remove(id))
+        })
+    }
+
+    /// Hide the items if all are visible, or show them.
+    pub fn visibility(document: &Document, items: &[CurveId]) -> Result<Self, Refusal> {
+        let visible = !are_visible(document, items);
+        let verb = if visible { "Show" } else { "Hide" };
+        let label = |taken: &[CurveId]| format!("{verb} {}", noun(document, taken));
+        Self::of(items.iter().copied(), label, |curve| {
+            Ok(Edit::SetVisible { curve, visible })
+        })
+    }
+
+    /// Unlock the items if all are locked, or lock them.
+    pub fn lock(document: &Document, items: &[CurveId]) -> Result<Self, Refusal> {
+        let locked = !are_locked(document, items);
+        let verb = if locked { "Lock" } else { "Unlock" };
+        let label = |taken: &[CurveId]| format!("{verb} {}", noun(document, taken));
+        Self::of(items.iter().copied(), label, |curve| {
+            Ok(Edit::SetLocked { curve, locked })
+        })
+    }
+
+    /// Open the curves if all are periodic, or make them periodic. References stay.
+    pub fn periodicity(document: &Document, items: &[CurveId]) -> Result<Self, Refusal> {
+        let periodic = !are_periodic(document, items);
+        let changes = items.iter().copied().filter(|id| {
+            let curve = document.curve(*id);
+            curve.is_some_and(|curve| curve.polygon.is_periodic() != periodic)
+        });
+        let label = |taken: &[CurveId]| match (periodic, taken.len()) {
+            (true, 1) => "Make periodic".to_owned(),
+            (true, _) => format!("Make {} periodic", noun(document, taken)),
+            (false, _) => format!("Open {}", noun(document, taken)),
+        };
+        Self::of(changes, label, |id| {
+            let curve = document.curve(id).ok_or("There is no curve")?;
+            curve.check_editable().map_err(|error| error.to_string())?;
+            let edit = periodicity(id, curve, periodic);
+            edit.map_err(|error| format!("{}: {error}", quoted(&curve.name)))
+        })
+    }
+}
+
+/// Whether all items are visible.
+pub(super) fn are_visible(document: &Document, items: &[CurveId]) -> bool {
+    items.iter().all(|id| document.is_visible(*id))
+}
+
+/// Whether all items are locked.
+pub(super) fn are_locked(document: &Document, items: &[CurveId]) -> bool {
+    items.iter().all(|id| {
+        let curve = document.curve(*id).map(|it| it.locked);
+        let reference = document.reference(*id).map(|it| it.locked);
+        curve.or(reference).unwrap_or(false)
+    })
+}
+
+/// Whether there are curves among items, and all are periodic.
+pub(super) fn are_periodic(document: &Document, items: &[CurveId]) -> bool {
+    let curves = items.iter().filter_map(|id| document.curve(*id));
+    let mut curves = curves.map(|curve| curve.polygon.is_periodic()).peekable();
+    curves.peek().is_some() && curves.all(|is_periodic| is_periodic)
+}
+
+/// The items with copies of their curves and references.
+pub(super) fn copies(document: &Document, items: &[CurveId]) -> (Vec<Curve>, Vec<Reference>) {
+    let curves = items.iter().filter_map(|id| document.curve(*id));
+    let references = items.iter().filter_map(|id| document.reference(*id));
+    (
+        curves.map(|curve| Curve::clone(curve)).collect(),
+        references
+            .map(|reference| Reference::clone(reference))
+            .collect(),
+    )
+}
+
+/// The word for items in labels: "curve", "reference", or how many there are.
+pub(super) fn noun(document: &Document, items: &[CurveId]) -> String {
+    let references = items.iter().filter(|id| document.reference(**id).is_some());
+    let references = references.count();
+    match (items.len(), references) {
+        (1, 0) => "curve".to_owned(),
+        (1, _) => "reference".to_owned(),
+        (all, references) => counted_items(all - references, references),
+    }
+}
+
+/// Name items: all of a few, otherwise the first, and how many others there are.
+pub(super) fn named(document: &Document, items: &[CurveId]) -> String {
+    let name = |id: &CurveId| quoted(document.name(*id).unwrap_or_default());
+    match items {
+        [] => String::new(),
+        [only] => name(only),
+        [first @ .., last] if items.len() <= MOST_NAMES => {
+            let first: Vec<String> = first.iter().map(name).collect();
+            format!("{} and {}", first.join(", "), name(last))
+        }
+        _ => {
+            let first: Vec<String> = items.iter().take(MOST_NAMES - 1).map(name).collect();
+            let others = items.len() - first.len();
+            format!("{} and {others} others", first.join(", "))
+        }
+    }
+}

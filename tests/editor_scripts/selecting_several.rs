@@ -1,0 +1,321 @@
+//! Several curves and references, selected together: by clicks, by a box, and what commands make of them.
+
+use batten::document::{Curve, CurveId, Edit, EndMatch, MatchPlace};
+use batten::editor::{Command, CopyForm, Key, Layer, Modifiers};
+use batten::geometry::references::KINDS;
+use batten::geometry::{Continuity, End, FloatPolygon};
+use glam::DVec2;
+
+use super::script::Script;
+use super::several::two;
+
+/// The paper's arc, which is active, a longer curve and a short one below it, and a circle.
+fn four() -> (Script, [CurveId; 4]) {
+    let (mut script, [arc, other]) = two();
+    let points: Vec<_> = (0..6)
+        .map(|i| (3.0 * f64::from(i) - 8.0, -26.0 - f64::from(i % 2)))
+        .collect();
+    let short = FloatPolygon::planar(3, &points).expect("a polygon");
+    let short = Edit::Add(Box::new(Curve::new("short", short)));
+    script.editor.apply("add", vec![short]).expect("an edit");
+    let circle = KINDS.iter().copied().find(|kind| kind.name == "circle");
+    script.command(Command::AddReference(circle.expect("a circle")));
+    let ids: Vec<CurveId> = script.editor.document().all_ids().collect();
+    script.command(Command::FitAll);
+    // A press on the curve is to take the curve, and no vertex of the closed S-polygon.
+    if script.editor.sight().layers().shows(Layer::Clamped) {
+        script.command(Command::ToggleLayer(Layer::Clamped));
+    }
+    script.editor.activate(arc);
+    (script, [arc, other, ids[2], ids[3]])
+}
+
+fn selected(script: &Script) -> Vec<CurveId> {
+    let selection = script.editor.hand().selection();
+    let document = script.editor.document();
+    document
+        .all_ids()
+        .filter(|id| selection.has_item(*id))
+        .collect()
+}
+
+/// Where a point of a curve or a reference is on the canvas.
+fn on(script: &Script, id: CurveId, share: f64) -> DVec2 {
+    let shape = script.editor.document().shape(id).expect("a shape");
+    let viewport = script.editor.view().viewport();
+    let point = shape.jet(share * shape.pieces() as f64).point;
+    viewport.to_screen(viewport.flatten(point))
+}
+
+/// Draw a box around points of the canvas.
+fn boxed(script: &mut Script, points: &[DVec2]) {
+    let margin = DVec2::splat(9.0);
+    let low = points.iter().copied().reduce(DVec2::min).expect("points") - margin;
+    let high = points.iter().copied().reduce(DVec2::max).expect("points") + margin;
+    script.drag(low, high);
+}
+
+fn lock(script: &mut Script, curve: CurveId) {
+    let edit = Edit::SetLocked {
+        curve,
+        locked: true,
+    };
+    script.editor.apply("lock", vec![edit]).expect("an edit");
+}
+
+fn hide(script: &mut Script, curve: CurveId) {
+    let edit = Edit::SetVisible {
+        curve,
+        visible: false,
+    };
+    script.editor.apply("hide", vec![edit]).expect("an edit");
+}
+
+#[test]
+fn shift_click_takes_curves_and_references_and_a_click_takes_one_alone() {
+    let (mut script, [arc, other, short, circle]) = four();
+    assert_eq!(selected(&script), [arc]);
+    let steps = script.steps();
+    script.modifiers(Modifiers::SHIFT);
+    script.click(on(&script, other, 0.52));
+    script.click(on(&script, circle, 0.3));
+    assert_eq!(selected(&script), [arc, other, circle]);
+    assert_eq!(script.curve(), arc);
+    script.click(on(&script, other, 0.52));
+    assert_eq!(selected(&script), [arc, circle]);
+    script.modifiers(Modifiers::NONE);
+    script.click(on(&script, short, 0.52));
+    assert_eq!((selected(&script), script.curve()), (vec![short], short));
+    assert_eq!(script.steps(), steps, "selecting is no step");
+}
+
+#[test]
+fn a_box_takes_vertices_of_selected_curves_and_curves_where_none_is_selected() {
+    let (mut script, [arc, other, short, circle]) = four();
+    let everywhere = [DVec2::splat(10.0), DVec2::new(990.0, 690.0)];
+    boxed(&mut script, &everywhere);
+    assert_eq!(script.selected_of(arc).len(), 10);
+    assert!(script.selected_of(other).is_empty());
+    // Beside everything: first no vertex is selected any more, then no curve.
+    script.key(Key::Escape);
+    assert_eq!(
+        (selected(&script), script.selected_of(arc).len()),
+        (vec![arc], 0)
+    );
+    script.key(Key::Escape);
+    assert!(selected(&script).is_empty());
+    assert_eq!(script.curve(), arc);
+    let hint = {
+        script.press(everywhere[0]);
+        script.move_to(everywhere[1]);
+        script.editor.hint()
+    };
+    assert!(hint.contains("curves in the box"), "{hint}");
+    script.release(everywhere[1]);
+    assert_eq!(selected(&script), [arc, other, short, circle]);
+    boxed(&mut script, &everywhere);
+    assert_eq!(
+        script.editor.hand().selection().vertices().len(),
+        10 + 9 + 6
+    );
+    // A box that meets a curve of none that are selected takes the curve.
+    script.editor.activate(arc);
+    let across = [on(&script, short, 0.5), on(&script, short, 0.52)];
+    boxed(&mut script, &across);
+    assert_eq!(selected(&script), [short]);
+    // Shift adds curves, and vertices of those that are selected.
+    script.modifiers(Modifiers::SHIFT);
+    let at = script.at_vertex_of(short, 0);
+    boxed(&mut script, &[at]);
+    assert_eq!(script.selected_of(short), [0]);
+    script.modifiers(Modifiers::NONE);
+}
+
+#[test]
+fn a_box_leaves_out_what_is_locked_or_hidden() {
+    let (mut script, [arc, other, short, circle]) = four();
+    lock(&mut script, other);
+    hide(&mut script, short);
+    script.command(Command::SelectNone);
+    boxed(&mut script, &[DVec2::splat(10.0), DVec2::new(990.0, 690.0)]);
+    assert_eq!(selected(&script), [arc, circle]);
+}
+
+#[test]
+fn a_curve_alone_needs_no_selection_for_a_box() {
+    let mut script = Script::example("arc");
+    script.command(Command::SelectNone);
+    boxed(&mut script, &[DVec2::splat(10.0), DVec2::new(990.0, 690.0)]);
+    assert_eq!(script.selected().len(), 10);
+}
+
+#[test]
+fn a_command_on_several_is_one_step() {
+    let (mut script, ids) = four();
+    let [arc, other, short, circle] = ids;
+    script.editor.hand_mut().select_items([arc, other, circle]);
+    let (before, steps) = (script.editor.document().clone(), script.steps());
+    let visible = |script: &Script| ids.map(|id| script.editor.document().is_visible(id));
+    script.command(Command::ToggleVisible);
+    assert_eq!(visible(&script), [false, false, true, false]);
+    assert_eq!(script.steps(), steps + 1);
+    assert_eq!(selected(&script), [arc, other, circle]);
+    script.command(Command::ToggleVisible);
+    assert_eq!(visible(&script), [true; 4]);
+    // Mixed is brought to one.
+    hide(&mut script, other);
+    script.command(Command::ToggleVisible);
+    assert_eq!(visible(&script), [true; 4]);
+    script.command(Command::ToggleLocked);
+    assert_eq!(Command::ToggleLocked.is_checked(&script.editor), Some(true));
+    assert!(
+        script
+            .editor
+            .document()
+            .curve(short)
+            .is_some_and(|it| !it.locked)
+    );
+    script.command(Command::ToggleLocked);
+    script.command(Command::TogglePeriodic);
+    let periodic = |script: &Script, id| {
+        let curve = script.editor.document().curve(id).cloned();
+        curve.expect("a curve").polygon.is_periodic()
+    };
+    assert!(periodic(&script, arc) && periodic(&script, other) && !periodic(&script, short));
+    script.command(Command::TogglePeriodic);
+    while script.steps() > steps {
+        script.command(Command::Undo);
+    }
+    assert!(script.editor.document().is_same(&before));
+}
+
+#[test]
+fn what_a_command_leaves_out_is_told() {
+    let (mut script, [arc, other, short, _]) = four();
+    lock(&mut script, other);
+    script.editor.hand_mut().select_items([arc, other, short]);
+    script.command(Command::TogglePeriodic);
+    assert!(
+        script.message().contains("“other” is locked"),
+        "{}",
+        script.message()
+    );
+    script.command(Command::Undo);
+    script.command(Command::DeleteCurve);
+    assert!(
+        script.message().contains("“other” is locked"),
+        "{}",
+        script.message()
+    );
+    assert!(
+        script.message().contains("“short” deleted"),
+        "{}",
+        script.message()
+    );
+    assert_eq!(script.editor.document().curves().len(), 1);
+    script.command(Command::Undo);
+    assert_eq!(
+        selected(&script),
+        [arc, short],
+        "what comes back is selected"
+    );
+}
+
+#[test]
+fn del_names_the_curves_and_deletes_them_when_it_is_pressed_again() {
+    let (mut script, [arc, other, short, circle]) = four();
+    script.editor.hand_mut().select_items([arc, other]);
+    let steps = script.steps();
+    script.command(Command::Delete);
+    assert_eq!(script.steps(), steps);
+    for name in ["Press Del again", "“other”"] {
+        assert!(script.message().contains(name), "{}", script.message());
+    }
+    // What is named is what is deleted: with another selection it is named anew.
+    script
+        .editor
+        .hand_mut()
+        .select_items([other, short, circle]);
+    script.command(Command::Delete);
+    assert_eq!(script.steps(), steps);
+    assert!(script.message().contains("“short”"), "{}", script.message());
+    script.command(Command::Delete);
+    assert_eq!(script.steps(), steps + 1);
+    let left: Vec<CurveId> = script.editor.document().all_ids().collect();
+    assert_eq!(left, [arc]);
+    assert!(script.message().contains("deleted"), "{}", script.message());
+    // Where vertices are selected it deletes these.
+    script.command(Command::Undo);
+    script.editor.activate(other);
+    script.click(script.at_vertex_of(other, 3));
+    script.command(Command::Delete);
+    assert!(
+        script.message().starts_with("1 vertex deleted"),
+        "{}",
+        script.message()
+    );
+    // Nothing is deleted that is not seen selected.
+    script.command(Command::SelectNone);
+    let before = script.editor.document().clone();
+    script.command(Command::Delete);
+    script.command(Command::Delete);
+    assert!(script.editor.document().is_same(&before));
+    assert!(
+        script.message().contains("Nothing is selected"),
+        "{}",
+        script.message()
+    );
+}
+
+#[test]
+fn copies_hold_all_that_is_selected() {
+    let (mut script, [arc, other, _, circle]) = four();
+    script.editor.hand_mut().select_items([arc, other, circle]);
+    let text = script.editor.copy(CopyForm::Own).expect("a text");
+    assert!(script.message().contains("“other”"), "{}", script.message());
+    script.editor.paste_text(&text).expect("copies");
+    let document = script.editor.document();
+    assert_eq!(
+        (document.curves().len(), document.references().len()),
+        (5, 2)
+    );
+    assert_eq!(selected(&script).len(), 3, "the copies are selected");
+    script.command(Command::Undo);
+    script.editor.hand_mut().select_items([arc, other]);
+    let path = script.editor.copy(CopyForm::SvgPath).expect("a path");
+    assert_eq!(path.matches('M').count(), 2, "{path}");
+    let table = script.editor.copy(CopyForm::Table).expect("a table");
+    assert!(table.lines().count() > 19, "{table}");
+    let steps = script.steps();
+    script.command(Command::Duplicate);
+    assert_eq!(script.steps(), steps + 1);
+    assert_eq!(script.editor.document().curves().len(), 5);
+    assert_eq!(selected(&script).len(), 2);
+    assert!(!selected(&script).contains(&arc));
+}
+
+#[test]
+fn the_matches_that_a_deletion_of_several_dissolves_are_told() {
+    let (mut script, [arc, other, short, _]) = four();
+    let matched = EndMatch {
+        curve: short,
+        end: End::Start,
+        source: other,
+        place: MatchPlace::End(End::Start),
+        continuity: Continuity::G1,
+        reversed: true,
+    };
+    script
+        .editor
+        .apply("match", vec![Edit::SetMatch(matched)])
+        .expect("a match");
+    script.editor.hand_mut().select_items([arc, other]);
+    script.command(Command::DeleteCurve);
+    assert!(
+        script.message().contains("“short” is no longer matched"),
+        "{}",
+        script.message()
+    );
+    script.command(Command::Undo);
+    assert_eq!(script.editor.document().matches().len(), 1);
+}
