@@ -39,6 +39,7 @@ mod matrix;
 mod measuring;
 mod menus;
 mod model;
+mod moving_several;
 mod paper;
 mod places;
 mod plots;

@@ -10,7 +10,7 @@ use super::script::Script;
 use super::several::two;
 
 /// The paper's arc, which is active, a longer curve and a short one below it, and a circle.
-fn four() -> (Script, [CurveId; 4]) {
+pub fn four() -> (Script, [CurveId; 4]) {
     let (mut script, [arc, other]) = two();
     let points: Vec<_> = (0..6)
         .map(|i| (3.0 * f64::from(i) - 8.0, -26.0 - f64::from(i % 2)))
@@ -40,7 +40,7 @@ fn selected(script: &Script) -> Vec<CurveId> {
 }
 
 /// Where a point of a curve or a reference is on the canvas.
-fn on(script: &Script, id: CurveId, share: f64) -> DVec2 {
+pub fn on(script: &Script, id: CurveId, share: f64) -> DVec2 {
     let shape = script.editor.document().shape(id).expect("a shape");
     let viewport = script.editor.view().viewport();
     let point = shape.jet(share * shape.pieces() as f64).point;
@@ -55,7 +55,8 @@ fn boxed(script: &mut Script, points: &[DVec2]) {
     script.drag(low, high);
 }
 
-fn lock(script: &mut Script, curve: CurveId) {
+/// Lock a curve.
+pub fn lock(script: &mut Script, curve: CurveId) {
     let edit = Edit::SetLocked {
         curve,
         locked: true,
@@ -63,7 +64,8 @@ fn lock(script: &mut Script, curve: CurveId) {
     script.editor.apply("lock", vec![edit]).expect("an edit");
 }
 
-fn hide(script: &mut Script, curve: CurveId) {
+/// Hide a curve or a reference.
+pub fn hide(script: &mut Script, curve: CurveId) {
     let edit = Edit::SetVisible {
         curve,
         visible: false,

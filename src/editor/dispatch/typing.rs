@@ -75,8 +75,8 @@ impl Editor {
         changes
     }
 
-    /// Rotate or scale the selection, or the active curve or reference, about the pivot, as one step. The reply is
-    /// told.
+    /// Rotate or scale the selected vertices, or the selected curves and references, about the pivot, as one step. The
+    /// reply is told.
     ///
     /// # Errors
     /// [`Refusal`] if there is nothing to transform.
@@ -86,7 +86,7 @@ impl Editor {
             return self.tell(Err(tools::NOTHING_TO_TRANSFORM.into()));
         };
         let taken = Transformed::of(&context);
-        let label = taken.label(transformation);
+        let label = taken.label_of(transformation);
         let edits = match taken.edits(transformation, pivot, context.viewport) {
             Ok(edits) => edits,
             Err(error) => return self.tell(Err(Refusal(error.to_string()))),

@@ -7,6 +7,7 @@ mod end_fit;
 mod end_fit_drags;
 mod end_fit_subject;
 mod end_pick;
+mod item_drag;
 mod measure;
 mod measured;
 mod move_drag;

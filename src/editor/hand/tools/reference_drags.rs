@@ -5,8 +5,7 @@ use glam::{DQuat, DVec2, DVec3};
 use super::move_drag::MoveDrag;
 use super::tool::{Context, Effect};
 use super::transformed::set_placement;
-use crate::document::{CurveId, Document, Edit, Reference};
-use crate::editor::hand::clean_step::stepped;
+use crate::document::{CurveId, Document, Reference};
 use crate::editor::hand::snapping::Carried;
 use crate::editor::view::hit::{CurveHit, REACH};
 use crate::editor::view::scene::{DragReadout, Mark};
@@ -64,9 +63,9 @@ enum Kind {
 }
 
 impl Frame {
-    /// The frame of the active reference, if it can be changed.
+    /// The frame of the active reference, if it can be changed and nothing else is selected.
     pub fn of(context: &Context) -> Option<Self> {
-        let (id, _) = editable(context)?;
+        let (id, _) = editable(context).filter(|_| !context.selection.has_several_items())?;
         let bounds = context.hits.view.outlines.get(id)?.curve.bounds();
         if bounds.is_empty() {
             return None;
@@ -248,16 +247,6 @@ impl ReferenceDrag {
             ..readout
         })
     }
-}
-
-/// The edit that moves the active reference by a vector of the view plane, if it can be moved.
-pub fn nudged(by: DVec2, context: &Context) -> Option<Edit> {
-    let (id, reference) = editable(context)?;
-    let curve = &reference.curve;
-    let now = curve.placement();
-    let to = stepped(now.translation(), context.movement(by, curve.is_planar()));
-    let placement = Placement::new(now.rotation(), now.scale(), to).ok()?;
-    Some(set_placement(id, curve, placement))
 }
 
 /// The active reference, if it can be changed.

@@ -4,10 +4,12 @@ use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 
+use super::item_drag::ItemDrag;
 use super::move_drag::MoveDrag;
 use super::moving_point::MovingPoint;
-use super::reference_drags::{Frame, ReferenceDrag, nudged};
+use super::reference_drags::{Frame, ReferenceDrag};
 use super::tool::{Context, Cursor, Effect, Tool, move_edits, named_snap};
+use super::transformed::Transformed;
 use crate::document::{CurveId, Document, EditError};
 use crate::editor::hand::clean_step::stepped;
 use crate::editor::hand::following::{Follow, Followers, Following, PointKind};
@@ -45,6 +47,8 @@ enum State {
     MovingPoint(MovingPoint),
     /// A reference is moved, rotated or scaled.
     Reference(ReferenceDrag),
+    /// All selected curves and references are moved.
+    Items(ItemDrag),
     /// A box is drawn, by its corners on the canvas.
     Boxing { from: DVec2, to: DVec2 },
     /// The comb is scaled by the tip of a tooth.
@@ -96,14 +100,17 @@ impl Tool for SelectTool {
             (State::Idle, Gesture::DoubleClick(place)) => double_click(place, context),
             (State::Idle, Gesture::DragStart(place)) => self.start(place, context),
             (State::Idle, Gesture::Key(key)) => nudge(key, context),
-            (State::Moving(_), Gesture::DragEnd(_)) => {
+            (State::Moving(_) | State::Items(_), Gesture::DragEnd(_)) => {
                 let staying = context.staying().map(Effect::Say);
                 [Effect::Commit].into_iter().chain(staying).collect()
             }
             (State::MovingPoint(_) | State::Reference(_), Gesture::DragEnd(_)) => {
                 vec![Effect::Commit]
             }
-            (State::Moving(_) | State::MovingPoint(_) | State::Reference(_), Gesture::Cancel) => {
+            (
+                State::Moving(_) | State::MovingPoint(_) | State::Reference(_) | State::Items(_),
+                Gesture::Cancel,
+            ) => {
                 vec![Effect::Abort]
             }
             (State::Boxing { from, .. }, Gesture::DragEnd(to)) => boxed(from, to, context),
@@ -158,6 +165,7 @@ impl Tool for SelectTool {
             }
             State::MovingPoint(moving) => moving.hint(context),
             State::Reference(drag) => drag.hint(context.snapping),
+            State::Items(drag) => drag.hint(context),
             State::Boxing { .. } => {
                 match context.selection.has_no_item() {
                     true => "Release to select the curves in the box; Shift adds to the selection",
@@ -184,6 +192,11 @@ impl Tool for SelectTool {
                         "{} selected: drag, or nudge with arrow keys (Shift ×10, Ctrl ×0.1); Del deletes",
                         counted(selected, "vertex", "vertices")
                     )
+                } else if context.selection.is_of_whole_items() {
+                    let count = context.selection.items().len();
+                    format!(
+                        "{count} selected: drag one or press arrow keys to move all; R rotates, S scales, Del deletes"
+                    )
                 } else if Frame::of(context).is_some() {
                     "Drag the reference, a corner of its frame to scale it, the handle above to rotate it".into()
                 } else if context.document.is_empty() {
@@ -206,6 +219,7 @@ impl Tool for SelectTool {
             State::Moving(moving) => moving.marks(context),
             State::MovingPoint(moving) => moving.marks(context),
             State::Reference(drag) => drag.marks(context),
+            State::Items(drag) => drag.marks(context),
             State::Idle => {
                 let frame = Frame::of(context).map(|frame| frame.mark());
                 let tooth = context.place();
@@ -223,6 +237,7 @@ impl Tool for SelectTool {
             State::Moving(_)
             | State::MovingPoint(_)
             | State::Reference(_)
+            | State::Items(_)
             | State::Scaling { .. } => Cursor::Move,
             State::Idle
                 if place.is_some_and(|place| {
@@ -248,6 +263,7 @@ impl SelectTool {
             State::Moving(moving) => vec![moving.drag(place, context)],
             State::MovingPoint(moving) => vec![moving.drag(place, context)],
             State::Reference(drag) => vec![drag.drag(place, context)],
+            State::Items(drag) => vec![drag.drag(place, context)],
             State::Boxing { to, .. } => {
                 *to = place;
                 Vec::new()
@@ -277,6 +293,12 @@ impl SelectTool {
         let curve = point_of_curve(place, context);
         if let Some(leg) = leg_before(place, curve, context) {
             return self.start_moving_leg(place, leg, context);
+        }
+        if let Some(grip) = context.hits.curve(place)
+            && let Some((drag, effects)) = ItemDrag::begin(place, grip, context)
+        {
+            self.state = drag.map_or(State::Idle, State::Items);
+            return effects;
         }
         if let Some(hit) = curve {
             let point = PointKind::OnCurve(hit.u);
@@ -531,6 +553,21 @@ fn double_click(place: DVec2, context: &Context) -> Vec<Effect> {
     }
 }
 
+/// Move references, or several curves and references, by an arrow key.
+fn nudge_items(items: &Transformed, by: DVec2, context: &Context) -> Vec<Effect> {
+    let staying = context.staying().map(Effect::Say).into_iter();
+    if items.is_empty() {
+        return staying.collect();
+    }
+    match items.moved(|planar| context.movement(by, planar), stepped, context) {
+        Ok(edits) => [Effect::Apply(items.label("Nudge"), edits)]
+            .into_iter()
+            .chain(staying)
+            .collect(),
+        Err(error) => vec![Effect::Say(error.to_string())],
+    }
+}
+
 /// Move the selection by an arrow key: by the nudge step, ten times as far with Shift, a tenth with Ctrl.
 fn nudge(key: Key, context: &Context) -> Vec<Effect> {
     let direction = match key {
@@ -546,10 +583,9 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
         (false, true) => 0.1 * context.nudge_step,
         _ => context.nudge_step,
     };
-    if context.selection.is_empty()
-        && let Some(edit) = nudged(direction * step, context)
-    {
-        return vec![Effect::Apply("Nudge reference".to_owned(), vec![edit])];
+    let items = Transformed::of(context);
+    if context.selection.is_of_whole_items() || !items.can_stretch() {
+        return nudge_items(&items, direction * step, context);
     }
     let vertices = context.places(context.selection.vertices());
     let planar = context.planar_curves(&vertices);

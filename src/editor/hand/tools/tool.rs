@@ -1,12 +1,13 @@
 //! What every tool is: a state machine from gestures to effects.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use super::settings::ToolSettings;
 use super::transformation::Transformation;
-use crate::document::{CurveId, Document, Edit};
+use crate::document::{Curve, CurveId, Document, Edit, quoted};
 use crate::editor::hand::drawing_plane::DrawingPlane;
 use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::Gesture;
@@ -22,6 +23,9 @@ use crate::geometry::FloatPolygon;
 
 /// Distance of a label below the pointer, in screen points: the readout of a drag is above.
 const LABEL_BELOW: f64 = 72.0;
+
+/// The most names of items that a message lists.
+const MOST_NAMES: usize = 3;
 
 /// The state that a tool reads. A tool changes nothing itself: it returns [`Effect`]s.
 pub struct Context<'a> {
@@ -341,15 +345,59 @@ impl Context<'_> {
         })
     }
 
-    /// The vertices that a transformation takes: the selected ones that can be moved, or all of
-    /// the active curve if none is selected. What is hidden is left out.
+    /// The vertices that a transformation takes: the selected ones that can be moved, or all of the selected curves if
+    /// none is selected. What is hidden is left out, and of several curves those that cannot move as a whole.
     pub fn transformed(&self) -> Vec<(VertexId, DVec3)> {
-        self.places(self.chosen())
+        let mut taken = self.places(self.chosen());
+        if self.selection.is_of_whole_items() {
+            let items = self.selection.items().into_iter();
+            let staying = items.filter(|id| self.reason_to_stay(*id).is_some());
+            let staying: BTreeSet<CurveId> = staying.collect();
+            taken.retain(|((curve, _), _)| !staying.contains(curve));
+        }
+        taken
+    }
+
+    /// Why a curve or a reference cannot move as a whole, in a word or two.
+    fn reason_to_stay(&self, item: CurveId) -> Option<&'static str> {
+        let curve = self.before.curve(item).map(|it| (it.visible, it.locked));
+        let reference = self.before.reference(item);
+        let state = curve.or_else(|| reference.map(|it| (it.visible, it.locked)));
+        let locks = self.before.curve(item).map(|it| &it.locked_vertices);
+        match state? {
+            (false, _) => Some("hidden"),
+            (true, true) => Some("locked"),
+            (true, false) => locks
+                .is_some_and(|locks| !locks.is_empty())
+                .then_some("has locked vertices"),
+        }
+    }
+
+    /// Name the selected curves and references that stay where they are, with the reasons.
+    fn staying_items(&self) -> Option<String> {
+        let items = self.selection.items().into_iter();
+        let staying = items.filter_map(|id| {
+            let name = quoted(self.before.name(id)?);
+            Some(format!("{name} ({})", self.reason_to_stay(id)?))
+        });
+        let mut staying: Vec<String> = staying.collect();
+        let more = staying.len().saturating_sub(MOST_NAMES);
+        staying.truncate(MOST_NAMES);
+        let named = staying.join(", ");
+        match (staying.len(), more) {
+            (0, _) => None,
+            (1, 0) => Some(format!("{named} stays")),
+            (_, 0) => Some(format!("{named} stay")),
+            _ => Some(format!("{named} and {more} more stay")),
+        }
     }
 
     /// Say how many of the vertices that a transformation or a drag of the selection would take stay where
-    /// they are because they are locked, if any are.
+    /// they are because they are locked, if any are; of several curves and references, which ones stay and why.
     pub fn staying(&self) -> Option<String> {
+        if self.selection.is_of_whole_items() {
+            return self.staying_items();
+        }
         let is_visible = |(curve, _): &VertexId| {
             let curve = self.before.curve(*curve);
             curve.is_some_and(|curve| curve.visible)
@@ -362,14 +410,12 @@ impl Context<'_> {
         }
     }
 
-    /// The vertices that are selected, or all of the active curve if none is.
+    /// The vertices that are selected, or all of the selected curves if none is.
     fn chosen(&self) -> Vec<VertexId> {
         if self.selection.is_empty() {
-            let active = self
-                .selection
-                .active()
-                .and_then(|id| Some((id, self.before.curve(id)?)));
-            let all = active.into_iter().flat_map(|(id, curve)| {
+            let items = self.selection.items().into_iter();
+            let curves = items.filter_map(|id| Some((id, self.before.curve(id)?)));
+            let all = curves.flat_map(|(id, curve)| {
                 (0..curve.polygon.vertices().len()).map(move |index| (id, index))
             });
             all.collect()
@@ -381,8 +427,13 @@ impl Context<'_> {
     /// Look up where vertices were when the gesture began; locked ones and those of locked and of
     /// hidden curves are left out.
     pub fn places(&self, vertices: impl IntoIterator<Item = VertexId>) -> Vec<(VertexId, DVec3)> {
+        let mut last: Option<(CurveId, Option<&Arc<Curve>>)> = None;
         let place = |(curve, index): VertexId| {
-            let found = self.before.curve(curve)?;
+            // Vertices come curve by curve, and finding a curve takes time.
+            let known = last.filter(|(id, _)| *id == curve);
+            let (_, found) =
+                *last.insert(known.unwrap_or_else(|| (curve, self.before.curve(curve))));
+            let found = found?;
             found.check_editable().ok()?;
             found.check_vertices_unlocked([index]).ok()?;
             let vertex = found.polygon.vertices().get(index)?;
@@ -415,7 +466,7 @@ pub(super) fn pointer_label(told: Option<String>, context: &Context) -> Option<M
 pub fn move_edits(moved: impl IntoIterator<Item = (VertexId, DVec3)>) -> Vec<Edit> {
     let mut edits: Vec<(CurveId, Vec<(usize, DVec3)>)> = Vec::new();
     for ((curve, index), place) in moved {
-        match edits.iter_mut().find(|(other, _)| *other == curve) {
+        match edits.iter_mut().rfind(|(other, _)| *other == curve) {
             Some((_, moves)) => moves.push((index, place)),
             None => edits.push((curve, vec![(index, place)])),
         }

@@ -85,7 +85,7 @@ impl TransformTool {
             self.state = State::MovingPivot { before };
             return Vec::new();
         }
-        let label = taken.label(self.resting);
+        let label = taken.label_of(self.resting);
         let origin = context.model(place);
         let axis = self.sides(pivot, &taken, context).into_iter();
         let mut axis =
@@ -231,7 +231,7 @@ impl Tool for TransformTool {
             return effects;
         };
         let taken = Transformed::of(context);
-        effects.push(Effect::Begin(taken.label(typed)));
+        effects.push(Effect::Begin(taken.label_of(typed)));
         effects.push(Effect::preview(taken.edits(typed, pivot, context.viewport)));
         self.state = State::Typed(typed);
         effects

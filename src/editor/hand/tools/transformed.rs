@@ -1,4 +1,6 @@
-//! The items of a transformation: vertices, or a reference as a whole.
+//! The items of a transformation: vertices, or curves and references as a whole.
+
+use std::collections::BTreeSet;
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -8,37 +10,59 @@ use crate::document::{CurveId, Edit};
 use crate::editor::selection::VertexId;
 use crate::editor::view::outline::Bounds;
 use crate::editor::view::viewport::Viewport;
-use crate::geometry::counted;
 use crate::geometry::references::{Placement, ReferenceCurve, ReferenceError};
+use crate::geometry::{ParametricCurve, counted};
+use crate::io::counted_items;
 
 /// Hold the items of a transformation, as they were before.
 #[derive(Clone, Debug)]
 pub struct Transformed {
     vertices: Vec<(VertexId, DVec3)>,
-    reference: Option<(CurveId, ReferenceCurve)>,
+    references: Vec<(CurveId, ReferenceCurve)>,
+    /// Whether several curves and references are taken as a whole.
+    are_items: bool,
 }
 
 impl Transformed {
-    /// Take the active reference, otherwise the selected vertices, otherwise those of the active curve; without
+    /// Take the selected vertices, otherwise the selected references and the vertices of the selected curves; without
     /// what is locked or hidden.
     pub fn of(context: &Context) -> Self {
-        let active = context.selection.active();
-        let found = active.and_then(|id| Some((id, context.before.reference(id)?)));
-        let reference = found.filter(|(_, reference)| reference.check_editable().is_ok());
+        let selection = context.selection;
+        let items = match selection.is_empty() {
+            true => selection.items(),
+            false => Vec::new(),
+        };
+        let references = items.into_iter().filter_map(|id| {
+            let reference = context.before.reference(id)?;
+            reference.check_editable().ok()?;
+            Some((id, reference.curve.clone()))
+        });
         Self {
             vertices: context.transformed(),
-            reference: reference.map(|(id, reference)| (id, reference.curve.clone())),
+            references: references.collect(),
+            are_items: selection.is_of_whole_items(),
         }
     }
 
     /// Whether there is nothing.
     pub fn is_empty(&self) -> bool {
-        self.vertices.is_empty() && self.reference.is_none()
+        self.vertices.is_empty() && self.references.is_empty()
+    }
+
+    /// Whether a vertex of a curve, or a reference, is among the items.
+    pub(super) fn holds(&self, id: CurveId) -> bool {
+        let mut curves = self.vertices.iter().map(|((curve, _), _)| *curve);
+        curves.any(|curve| curve == id) || self.references.iter().any(|(it, _)| *it == id)
+    }
+
+    /// The vertices.
+    pub(super) fn vertices(&self) -> impl Iterator<Item = VertexId> + '_ {
+        self.vertices.iter().map(|(id, _)| *id)
     }
 
     /// Whether it can be scaled along one axis: a reference keeps its shape.
     pub fn can_stretch(&self) -> bool {
-        self.reference.is_none()
+        self.references.is_empty()
     }
 
     /// The middle of the items as they are seen, if there are any.
@@ -47,25 +71,35 @@ impl Transformed {
         for (_, vertex) in &self.vertices {
             bounds.add(context.viewport.flatten(*vertex));
         }
-        if let Some((id, _)) = &self.reference
-            && let Some(outlines) = context.hits.view.outlines.get(*id)
-        {
-            bounds = outlines.curve.bounds();
+        for (id, _) in &self.references {
+            if let Some(outlines) = context.hits.view.outlines.get(*id) {
+                bounds = bounds.united(outlines.curve.bounds());
+            }
         }
         (!bounds.is_empty()).then(|| 0.5 * (bounds.low + bounds.high))
     }
 
+    /// Name the items: how many vertices, or curves and references.
+    pub(super) fn noun(&self) -> String {
+        let curves: BTreeSet<CurveId> = self.vertices().map(|(curve, _)| curve).collect();
+        match (self.are_items, self.references.is_empty()) {
+            (true, _) => counted_items(curves.len(), self.references.len()),
+            (false, true) => counted(self.vertices.len(), "vertex", "vertices"),
+            (false, false) => "reference".to_owned(),
+        }
+    }
+
+    /// Name the step of undo that does something to the items.
+    pub(super) fn label(&self, verb: &str) -> String {
+        format!("{verb} {}", self.noun())
+    }
+
     /// Name the step of undo that a transformation of it is.
-    pub fn label(&self, action: Transformation) -> String {
-        let verb = match action {
+    pub fn label_of(&self, action: Transformation) -> String {
+        self.label(match action {
             Transformation::Rotate(_) => "Rotate",
             Transformation::Scale(_) | Transformation::Stretch(..) => "Scale",
-        };
-        let noun = match self.reference {
-            Some(_) => "reference".to_owned(),
-            None => counted(self.vertices.len(), "vertex", "vertices"),
-        };
-        format!("{verb} {noun}")
+        })
     }
 
     /// The edits that transform it about a pivot of the view plane.
@@ -81,8 +115,32 @@ impl Transformed {
         let moved = self.vertices.iter();
         let moved = moved.map(|(id, vertex)| (*id, action.apply(pivot, *vertex, viewport)));
         let mut edits = move_edits(moved);
-        if let Some((id, curve)) = &self.reference {
+        for (id, curve) in &self.references {
             let placement = placed(curve.placement(), action, pivot, viewport)?;
+            edits.push(set_placement(*id, curve, placement));
+        }
+        Ok(edits)
+    }
+
+    /// The edits that move it: `by` is the movement of what lies in the plane z = 0, and of what does not, and `add`
+    /// adds it to a place.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if a reference cannot be placed so.
+    pub(super) fn moved(
+        &self,
+        by: impl Fn(bool) -> DVec3,
+        add: impl Fn(DVec3, DVec3) -> DVec3,
+        context: &Context,
+    ) -> Result<Vec<Edit>, ReferenceError> {
+        let planar = context.planar_curves(&self.vertices);
+        let vertices = self.vertices.iter();
+        let moved = vertices.map(|(id, at)| (*id, add(*at, by(planar.contains(&id.0)))));
+        let mut edits = move_edits(moved);
+        for (id, curve) in &self.references {
+            let now = curve.placement();
+            let to = add(now.translation(), by(curve.is_planar()));
+            let placement = Placement::new(now.rotation(), now.scale(), to)?;
             edits.push(set_placement(*id, curve, placement));
         }
         Ok(edits)
