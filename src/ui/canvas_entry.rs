@@ -13,7 +13,7 @@ use super::keyboard::{self, Typing};
 use super::number_field::NumberField;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
-use super::{figures, inspector};
+use super::{figures, item_fields};
 use crate::editor::{
     DrawSettings, DrawWay, Editor, Entry, EntryError, Input, Key as EditorKey, LegLocks, ToolKind,
 };
@@ -242,7 +242,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
             };
             editor.hand_mut().set_draw_settings(settings);
         } else {
-            inspector::set_degree(editor, degree as f64);
+            item_fields::set_degree(editor, degree as f64);
         }
     }
     // What it has so far stands in a place of its own, so that nothing moves.

@@ -12,7 +12,8 @@ use crate::editor::{Editor, told};
 pub struct Item {
     /// Its identity.
     pub id: CurveId,
-    is_reference: bool,
+    /// Whether it is a reference.
+    pub is_reference: bool,
     /// Its name.
     pub name: String,
     /// Its group.

@@ -1,9 +1,6 @@
 //! The inspector: everything of the active curve, in numbers.
 
-use eframe::egui::{
-    Align2, Button, Color32, Key, Rect, Response, RichText, Role, Sense, TextBuffer, TextEdit, Ui,
-    Vec2, WidgetInfo, vec2,
-};
+use eframe::egui::{Align2, Button, Key, TextBuffer, TextEdit, Ui, vec2};
 use lucide_icons::Icon;
 
 use super::curvature_rows::curvature_rows;
@@ -11,17 +8,18 @@ use super::curve_item::Item;
 use super::deviation_panel::deviation_ui;
 use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
+use super::item_fields::{colour_ui, set_degree, state_ui};
+use super::items_panel::ItemsPanel;
 use super::keyboard::{self, Typing};
 use super::number_field::NumberField;
 use super::reference_panel;
-use super::theme::{self, ROW, STEP, Tokens};
+use super::theme::{ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
 use crate::document::{Curve, CurveId, Edit, Group, Reference};
 use crate::editor::{Command, CurvatureDisplay, CurveReport, Editor, told};
 use crate::geometry::MAX_DEGREE;
 use crate::geometry::expressions::LengthUnit;
-use crate::operations::{Value, reinterpret_degree};
 
 /// The inspector's own state.
 #[derive(Default)]
@@ -29,6 +27,7 @@ pub struct Inspector {
     /// The text that is being typed, for the curve that it belongs to and the field.
     typed: Option<(CurveId, Text, String)>,
     formulas: FormulaFields,
+    several: ItemsPanel,
 }
 
 /// A field of text.
@@ -69,8 +68,14 @@ impl Text {
 }
 
 impl Inspector {
-    /// Show the inspector of the active curve or reference.
+    /// Show the inspector of the active curve or reference, or of several that are selected.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+        if editor.hand().selection().has_several_items() {
+            let mut items = Item::all(editor);
+            items.retain(|item| item.selected);
+            self.several.show(ui, editor, &items);
+            return document_section_ui(ui, editor, false);
+        }
         let Some(item) = Item::active(editor) else {
             let text = "Draw or select a curve to see its degree, properties and features.";
             widgets::note(ui, text);
@@ -89,14 +94,15 @@ impl Inspector {
                     self.text_ui(ui, editor, &item, (text, &shown));
                 });
             }
-            widgets::form_row(ui, "Colour", |ui| colour_ui(ui, editor, &item));
+            let own = std::slice::from_ref(&item);
+            widgets::form_row(ui, "Colour", |ui| colour_ui(ui, editor, own));
             if let Some(curve) = &curve {
                 ui.add_enabled_ui(curve.check_editable().is_ok(), |ui| {
                     widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, curve));
                     widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, curve));
                 });
             }
-            widgets::form_row(ui, "State", |ui| state_ui(ui, editor, &item));
+            widgets::form_row(ui, "State", |ui| state_ui(ui, editor, own));
         });
         if let Some(reference) = &reference {
             self.reference_ui(ui, editor, id, reference);
@@ -225,17 +231,6 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     }
 }
 
-/// Give the active curve another degree; the polygon stays.
-pub fn set_degree(editor: &mut Editor, degree: f64) {
-    // The operation refuses a fraction.
-    let degree = match degree.fract() == 0.0 {
-        true => Value::Whole(degree as usize),
-        false => Value::Real(degree),
-    };
-    let values = [("degree", degree)];
-    told(editor.apply_operation(&reinterpret_degree::OPERATION, &values));
-}
-
 fn ends_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     let periodic = curve.polygon.is_periodic();
     ui.spacing_mut().item_spacing.x = STEP;
@@ -245,58 +240,6 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
             told(editor.execute(Command::TogglePeriodic));
         }
     }
-}
-
-/// Switches of a curve or a reference: visible, locked.
-fn state_ui(ui: &mut Ui, editor: &mut Editor, item: &Item) {
-    let (curve, mut visible, mut locked) = (item.id, item.visible, item.locked);
-    if ui.checkbox(&mut visible, "Visible").clicked() {
-        told(editor.change(Edit::SetVisible { curve, visible }));
-    }
-    if ui.checkbox(&mut locked, "Locked").clicked() {
-        told(editor.change(Edit::SetLocked { curve, locked }));
-    }
-}
-
-/// A swatch that opens a choice of colours; shows the own colour, or the theme's.
-fn colour_ui(ui: &mut Ui, editor: &mut Editor, item: &Item) {
-    let name = if item.colour.is_some() {
-        "Custom"
-    } else {
-        "Default"
-    };
-    let swatch = RichText::new("      ").background_color(item.shown_colour(Tokens::of(ui)));
-    let button = ui.menu_button((swatch, name), |ui| {
-        let mut chosen = None;
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = STEP;
-            for (name, colour) in theme::CURVE_COLOURS {
-                if choice_ui(ui, name, theme::of_document(colour)).clicked() {
-                    chosen = Some(Some(colour));
-                }
-            }
-        });
-        if ui.button("Reset to default").clicked() {
-            chosen = Some(None);
-        }
-        if let Some(colour) = chosen {
-            let curve = item.id;
-            told(editor.change(Edit::Recolour { curve, colour }));
-            ui.close();
-        }
-    });
-    button.response.accessible_name("Colour");
-}
-
-fn choice_ui(ui: &mut Ui, name: &str, colour: Color32) -> Response {
-    let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
-    if response.hovered() || response.has_focus() {
-        widgets::outline(ui, rect, 1.5, Tokens::of(ui).accent);
-    }
-    let swatch = Rect::from_center_size(rect.center(), Vec2::splat(4.0 * STEP));
-    widgets::swatch(ui, swatch, colour);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
-    response.on_hover_text(name)
 }
 
 fn figures_ui(ui: &mut Ui, curve: &Curve, report: &CurveReport, display: CurvatureDisplay) {

@@ -40,6 +40,8 @@ mod help;
 mod icons;
 mod import_panel;
 mod inspector;
+mod item_fields;
+mod items_panel;
 mod key_list;
 mod key_order;
 mod keyboard;

@@ -75,17 +75,21 @@ impl Editor {
         changes
     }
 
-    /// Rotate or scale the selected vertices, or the selected curves and references, about the pivot, as one step. The
-    /// reply is told.
+    /// Move, or rotate or scale about the pivot, the selected vertices, or the selected curves and references, as one
+    /// step. The reply is told.
     ///
     /// # Errors
     /// [`Refusal`] if there is nothing to transform.
     pub fn transform(&mut self, transformation: Transformation) -> Reply {
         let context = self.context();
-        let Some(pivot) = self.hand.pivot(&context) else {
+        let taken = Transformed::of(&context);
+        let pivot = match transformation {
+            Transformation::Move(_) => taken.middle(&context),
+            _ => self.hand.pivot(&context),
+        };
+        let Some(pivot) = pivot else {
             return self.tell(Err(tools::NOTHING_TO_TRANSFORM.into()));
         };
-        let taken = Transformed::of(&context);
         let label = taken.label_of(transformation);
         let edits = match taken.edits(transformation, pivot, context.viewport) {
             Ok(edits) => edits,

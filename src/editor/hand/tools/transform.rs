@@ -326,6 +326,7 @@ impl TransformTool {
                 };
             }
             Transformation::Scale(factor) => DVec2::splat(factor),
+            Transformation::Move(_) => DVec2::ONE,
             Transformation::Stretch(axis, factor) => {
                 let mut factors = DVec2::ONE;
                 factors[axis] = factor;

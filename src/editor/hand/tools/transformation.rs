@@ -1,11 +1,11 @@
-//! Rotations and scalings, as they are dragged or typed.
+//! Rotations, scalings and movements, as they are dragged or typed.
 
 use glam::{DVec2, DVec3};
 
 use crate::editor::hand::drawing_plane::DrawingPlane;
 use crate::editor::view::viewport::Viewport;
 
-/// A transformation about a pivot, as it is dragged or typed.
+/// A transformation as it is dragged or typed, about a pivot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Transformation {
     /// Turn by an angle in radians, counterclockwise as it is seen.
@@ -14,6 +14,8 @@ pub enum Transformation {
     Scale(f64),
     /// Scale by a factor along one axis (0 or 1) of the plane that is drawn in.
     Stretch(usize, f64),
+    /// Move, wherever the pivot is.
+    Move(DVec3),
 }
 
 impl Transformation {
@@ -35,6 +37,7 @@ impl Transformation {
                 let along = direction.dot(vertex - viewport.grounded(pivot));
                 vertex + (factor - 1.0) * along * direction
             }
+            Self::Move(by) => vertex + by,
         }
     }
 }

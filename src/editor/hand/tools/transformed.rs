@@ -99,6 +99,7 @@ impl Transformed {
         self.label(match action {
             Transformation::Rotate(_) => "Rotate",
             Transformation::Scale(_) | Transformation::Stretch(..) => "Scale",
+            Transformation::Move(_) => "Move",
         })
     }
 
@@ -173,6 +174,9 @@ fn placed(
         }
         Transformation::Scale(factor) | Transformation::Stretch(_, factor) => {
             before.scaled_about(viewport.grounded(pivot), factor)
+        }
+        Transformation::Move(by) => {
+            Placement::new(before.rotation(), before.scale(), before.translation() + by)
         }
     }
 }
