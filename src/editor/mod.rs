@@ -28,7 +28,7 @@ pub use jobs::exporting::ExportForecast;
 pub use jobs::file_reading::{ColumnQuestion, FileAnswer, FoundFile, ImportQuestion};
 pub use jobs::filing::{FileReply, Filing, is_project};
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, Recovery, with_extension};
-pub use operating::{FittedPoints, Operating, OperationInProgress, Run};
+pub use operating::{FittedPoints, Operating, OperationInProgress, OtherResult, Run};
 pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};

@@ -10,15 +10,26 @@ use super::float_polygon::FloatPolygon;
 /// Share with a computation, which may run on another thread, how far it has come and whether its
 /// result is still wanted. Clones are handles of the same computation; one made by
 /// [`Progress::default`] that nobody else has is never cancelled.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Progress {
     shared: Arc<State>,
     /// When the time is up.
     deadline: Option<Instant>,
     /// The part of the whole work whose shares are told.
     part: Part,
-    /// Which of the curves of the result is searched for.
-    curve: usize,
+    /// Which of the curves of the result is searched for; `None` shows no curve.
+    curve: Option<usize>,
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Self {
+            shared: Arc::default(),
+            deadline: None,
+            part: Part::default(),
+            curve: Some(0),
+        }
+    }
 }
 
 /// A part of some work, from one share of it to another.
@@ -104,7 +115,15 @@ impl Progress {
     /// Watch the search for one of several curves of a result, by its number.
     pub fn of_curve(&self, curve: usize) -> Self {
         Self {
-            curve,
+            curve: self.curve.map(|_| curve),
+            ..self.clone()
+        }
+    }
+
+    /// Watch a part whose best curves are not shown, as those of another result.
+    pub fn unshown(&self) -> Self {
+        Self {
+            curve: None,
             ..self.clone()
         }
     }
@@ -137,8 +156,11 @@ impl Progress {
 
     /// Show the best curve found so far to whoever watches.
     pub fn show(&self, best: FloatPolygon) {
+        let Some(curve) = self.curve else {
+            return;
+        };
         let mut shown = self.best();
-        shown.curves.insert(self.curve, best);
+        shown.curves.insert(curve, best);
         shown.is_new = true;
     }
 

@@ -157,6 +157,7 @@ pub static OPERATION: Operation = Operation {
     label: "Approximate",
     help: "Make a float polygon whose curve follows a reference, or the chosen curve in another degree or count",
     inputs: Inputs::OneOrNone,
+    each: true,
     parameters: &[
         REFERENCE, METHOD, DEGREE, FROM, TO, STEP, COUNT, TOLERANCE, SPACING, LEVELS, FIT_ENDS,
         TIME_LIMIT,

@@ -155,6 +155,7 @@ pub static OPERATION: Operation = Operation {
     label: "Segment between two ends",
     help: "Join two points with directions by a segment of monotone curvature",
     inputs: Inputs::UpToTwo,
+    each: false,
     parameters: &[
         KIND,
         ALPHA,

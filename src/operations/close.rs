@@ -21,6 +21,7 @@ pub static OPERATION: Operation = Operation {
     label: "Close curve",
     help: "Join the two ends of a curve by a harmonious bridge, so that it is periodic; the curve itself stays",
     inputs: Inputs::One,
+    each: true,
     parameters: &[BRIDGE],
     check: |input| open(input, "closed").map(drop),
     unused: |_| &[],

@@ -192,6 +192,7 @@ pub static OPERATION: Operation = Operation {
     label: "Correct ends",
     help: "Bring the ends to their targets; an end without one keeps its point and direction",
     inputs: Inputs::One,
+    each: false,
     parameters: &[
         METHOD,
         ORDER,

@@ -27,6 +27,7 @@ pub static OPERATION: Operation = Operation {
     label: "Elevate degree",
     help: "Raise the degree; exact for a curve of one segment, otherwise a uniform curve near it",
     inputs: Inputs::One,
+    each: true,
     parameters: &[DEGREE, TOLERANCE],
     check,
     unused: |_| &[],

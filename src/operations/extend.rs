@@ -26,6 +26,7 @@ pub static OPERATION: Operation = Operation {
     label: "Extend curve",
     help: "Continue an end of the curve by whole segments, exactly as it runs",
     inputs: Inputs::One,
+    each: false,
     parameters: &[END, SEGMENTS],
     check: |input| open(input, "extended").map(drop),
     unused: |_| &[],

@@ -188,6 +188,7 @@ pub static OPERATION: Operation = Operation {
     label: "Fit points",
     help: "Draw a curve with few curvature extrema through the middle of points",
     inputs: Inputs::Points,
+    each: true,
     parameters: &[
         DEGREE,
         EXTREMA,

@@ -139,6 +139,7 @@ pub static OPERATION: Operation = Operation {
     label: "Harmonise",
     help: "Move the vertices as little as possible so that only the features asked for are left",
     inputs: Inputs::One,
+    each: true,
     parameters: &[
         KEEP,
         KEEP_START,

@@ -172,6 +172,7 @@ pub static OPERATION: Operation = Operation {
     label: "Join curves",
     help: "Join two open curves: merged into one, by a bridge between both, or as a chain",
     inputs: Inputs::Two,
+    each: false,
     parameters: &[
         METHOD,
         TOLERANCE,

@@ -84,6 +84,7 @@ pub static OPERATION: Operation = Operation {
     label: "Make symmetric",
     help: "Make the curve its own mirror image; a curve on one side is joined to its image",
     inputs: Inputs::One,
+    each: true,
     parameters: &[AXIS, FROM, TO, PLANE, KEEP, TOLERANCE],
     check: check_editable,
     unused: super::mirror::unused,

@@ -110,6 +110,7 @@ pub static OPERATION: Operation = Operation {
     label: "Mineur–Farin curve",
     help: "Make a curve on points whose legs grow by one ratio and turn by one angle",
     inputs: Inputs::None,
+    each: false,
     parameters: &[
         LEGS, RATIO, ANGLE, TORSION, DEGREE, POLYGON, START, FIRST_LEG,
     ],

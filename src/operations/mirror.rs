@@ -10,7 +10,7 @@ use super::operation::Operation;
 use super::outcome::{Deviation, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
-use crate::document::{Curve, CurveId, Edit, EndTargets};
+use crate::document::{Curve, CurveId, Document, Edit, EndTargets};
 use crate::geometry::{End, FloatPolygon, Mirror, Progress};
 
 const AXIS: Parameter = Parameter {
@@ -69,6 +69,7 @@ pub static OPERATION: Operation = Operation {
     label: "Mirror",
     help: "Make the mirror image of the curve, with its ends, targets and locks",
     inputs: Inputs::One,
+    each: true,
     parameters: &[AXIS, FROM, TO, PLANE, COPY],
     check: check_editable,
     unused,
@@ -115,7 +116,7 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
         }
         false => {
             check_free(input, id)?;
-            in_place(id, curve, image)
+            in_place(input.document(), id, curve, image)
         }
     };
     Ok(outcome)
@@ -175,12 +176,13 @@ fn image(curve: &Curve, mirror: &Mirror) -> Result<Curve, OperationError> {
     })
 }
 
-/// Refuse a curve that follows another one: it would go back to it.
+/// Refuse a curve that follows another one, unless that is mirrored too: it would go back to it.
 pub(super) fn check_free(input: &Operands, id: CurveId) -> Result<(), OperationError> {
     let document = input.document();
     let matched = End::BOTH
         .into_iter()
-        .find_map(|end| document.match_of(id, end));
+        .filter_map(|end| document.match_of(id, end))
+        .find(|matched| !input.goes_along(matched.source));
     match matched {
         Some(matched) => Err(OperationError::MirroredMatch {
             end: matched.end,
@@ -191,7 +193,7 @@ pub(super) fn check_free(input: &Operands, id: CurveId) -> Result<(), OperationE
 }
 
 /// Put the image in the curve's place, locked vertices with it.
-fn in_place(curve: CurveId, before: &Curve, image: Curve) -> Vec<Edit> {
+fn in_place(document: &Document, curve: CurveId, before: &Curve, image: Curve) -> Vec<Edit> {
     let locks: Vec<usize> = before.locked_vertices.iter().collect();
     let locked = |locked: bool| Edit::SetVerticesLocked {
         curve,
@@ -207,7 +209,9 @@ fn in_place(curve: CurveId, before: &Curve, image: Curve) -> Vec<Edit> {
     if locks.is_empty() {
         edits.retain(|edit| matches!(edit, Edit::SetPolygon { .. }));
     }
+    // The target of a matched end is that of the match.
     let targets = image.targets.list().into_iter();
+    let targets = targets.filter(|(end, _)| document.match_of(curve, *end).is_none());
     edits.extend(targets.map(|(end, target)| Edit::SetTarget {
         curve,
         end,

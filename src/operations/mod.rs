@@ -15,6 +15,7 @@ mod bridge;
 mod composite;
 mod cutting;
 mod degree;
+mod each;
 mod editable;
 mod end_change;
 mod error;
@@ -45,6 +46,7 @@ mod which_end;
 
 pub use amount::Amount;
 pub use atlas::Atlas;
+pub use each::Share;
 pub use error::OperationError;
 pub use features::{FeatureComparison, FeatureCounts};
 pub use floats::{FloatRequest, floated};

@@ -1,5 +1,6 @@
 //! What an operation works on.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -21,6 +22,10 @@ pub struct Operands {
     chosen_reference: Option<CurveId>,
     /// The group of the curve or the reference that comes first.
     group: Group,
+    /// The other items that an operation runs on, each by itself, or why it cannot.
+    beside: Vec<(CurveId, Result<Operands, OperationError>)>,
+    /// The items that an operation runs on at once.
+    together: Arc<BTreeSet<CurveId>>,
 }
 
 impl Operands {
@@ -47,6 +52,8 @@ impl Operands {
             weights: None,
             reference: None,
             chosen_reference: None,
+            beside: Vec::new(),
+            together: Arc::default(),
         })
     }
 
@@ -90,6 +97,47 @@ impl Operands {
             chosen_reference: active.filter(|_| reference.is_some()),
             ..operands.with_points(points.unwrap_or_default())
         })
+    }
+
+    /// Let an operation run on other items too, each by itself, or tell of each why it cannot.
+    pub fn with_beside(self, beside: Vec<(CurveId, Result<Operands, OperationError>)>) -> Self {
+        let others = beside
+            .iter()
+            .filter(|(_, it)| it.is_ok())
+            .map(|(id, _)| *id);
+        let together: Arc<BTreeSet<CurveId>> = Arc::new(others.chain(self.item()).collect());
+        let beside = beside.into_iter().map(|(id, it)| {
+            let together = together.clone();
+            (id, it.map(|it| Self { together, ..it }))
+        });
+        Self {
+            beside: beside.collect(),
+            together,
+            ..self
+        }
+    }
+
+    /// The other items that an operation runs on, each by itself, or why it cannot.
+    pub fn beside(&self) -> &[(CurveId, Result<Operands, OperationError>)] {
+        &self.beside
+    }
+
+    /// The curve that comes first, or the reference that was chosen.
+    pub fn item(&self) -> Option<CurveId> {
+        let curve = self.curves.first().map(|(id, _)| *id);
+        curve.or(self.chosen_reference)
+    }
+
+    /// Whether an operation runs on a curve or a reference too, at the same time.
+    pub(super) fn goes_along(&self, item: CurveId) -> bool {
+        self.together.contains(&item)
+    }
+
+    /// List the curves that were chosen, with those beside.
+    pub fn all_curves(&self) -> impl Iterator<Item = &(CurveId, Arc<Curve>)> {
+        let beside = self.beside.iter().filter_map(|(_, it)| it.as_ref().ok());
+        let beside = beside.flat_map(|it| it.curves.iter());
+        self.curves.iter().chain(beside)
     }
 
     /// Add a table of points with finite coordinates.

@@ -23,6 +23,8 @@ pub struct Operation {
     pub help: &'static str,
     /// What it works on.
     pub inputs: Inputs,
+    /// Whether it runs on each of several selected items by itself, and not on the active one alone.
+    pub each: bool,
     /// What can be chosen, in the order in which it is offered.
     pub parameters: &'static [Parameter],
     /// Tell why it cannot run on this input, whatever the values.

@@ -20,6 +20,7 @@ pub static OPERATION: Operation = Operation {
     label: "Reduce degree",
     help: "Lower the degree; the result is a curve near this one",
     inputs: Inputs::One,
+    each: true,
     parameters: &[DEGREE, TOLERANCE],
     check,
     unused: |_| &[],

@@ -26,6 +26,7 @@ pub static OPERATION: Operation = Operation {
     label: "Refine",
     help: "Give the polygon more vertices; features stay, and the report tells the deviation",
     inputs: Inputs::One,
+    each: true,
     parameters: &[COUNT, TOLERANCE],
     check: |input| editable(input).map(drop),
     unused: |_| &[],

@@ -35,6 +35,7 @@ pub static OPERATION: Operation = Operation {
     label: "Change degree, keep polygon",
     help: "Give the polygon another degree: higher is smoother, lower follows the polygon closer",
     inputs: Inputs::One,
+    each: true,
     parameters: &[DEGREE],
     check: check_editable,
     unused: |_| &[],

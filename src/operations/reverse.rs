@@ -16,6 +16,7 @@ pub static OPERATION: Operation = Operation {
     label: "Reverse direction",
     help: "Reverse the direction of the curve; its shape stays",
     inputs: Inputs::One,
+    each: true,
     parameters: &[],
     check: check_editable,
     unused: |_| &[],

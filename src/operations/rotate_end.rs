@@ -19,6 +19,7 @@ pub static OPERATION: Operation = Operation {
     label: "Rotate end",
     help: "Rotate the terminal vertices about the end so that its tangent has the target direction (step 6)",
     inputs: Inputs::One,
+    each: false,
     parameters: &[END],
     check: check_targets,
     unused: |_| &[],

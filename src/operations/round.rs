@@ -39,6 +39,7 @@ pub static OPERATION: Operation = Operation {
     label: "Round coordinates",
     help: "Round the coordinates of the float or the closed S-polygon, and report what that does to the curve",
     inputs: Inputs::One,
+    each: true,
     parameters: &[POLYGON, DIGITS],
     check: check_editable,
     unused: |_| &[],

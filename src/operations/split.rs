@@ -52,6 +52,7 @@ pub static OPERATION: Operation = Operation {
     label: "Split curve",
     help: "Cut the curve into two; at knots (whole u) the parts are exact",
     inputs: Inputs::One,
+    each: false,
     parameters: &[AT, SUBDIVISIONS],
     check: |input| open(input, "cut in two at one place").map(drop),
     unused: |_| &[],

@@ -17,6 +17,7 @@ pub static OPERATION: Operation = Operation {
     label: "Subdivide",
     help: "Halve every segment; the curve stays",
     inputs: Inputs::One,
+    each: true,
     parameters: &[],
     check: check_editable,
     unused: |_| &[],

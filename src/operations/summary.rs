@@ -10,6 +10,14 @@ impl Report {
     /// Say in one line what the operation did: "Trim curve: off the curve by at most 1.2e-3;
     /// curvature extrema: 2 before, 3 now".
     pub fn summary(&self) -> String {
+        match self.details() {
+            details if details.is_empty() => self.label.to_owned(),
+            details => format!("{}: {details}", self.label),
+        }
+    }
+
+    /// Say in one line what the operation did, without its name.
+    pub fn details(&self) -> String {
         let mut parts = Vec::new();
         if !self.reached {
             parts.push(match self.useful {
@@ -51,14 +59,12 @@ impl Report {
             parts.extend(changed_inflections(&features.before, &features.after));
             parts.extend(changed_harmony(&features.before, &features.after));
         }
-        let mut text = self.label.to_owned();
-        if !parts.is_empty() {
-            text += &format!(": {}", parts.join("; "));
-        }
-        for remark in self.warnings.iter().chain(&self.remarks) {
-            text += &format!(". {remark}");
-        }
-        text
+        let parts = [parts.join("; ")]
+            .into_iter()
+            .filter(|parts| !parts.is_empty());
+        let said = self.warnings.iter().chain(&self.remarks).cloned();
+        let sentences: Vec<String> = parts.chain(said).collect();
+        sentences.join(". ")
     }
 }
 

@@ -77,6 +77,7 @@ pub static OPERATION: Operation = Operation {
     label: "Convert to float polygon",
     help: "Put float polygons within a tolerance in the place of references: one, a group, or all",
     inputs: Inputs::References,
+    each: false,
     parameters: &[REFERENCES, TOLERANCE, DEGREE, KEEP, TIME_LIMIT],
     check: |input| match converted(input, Which::Chosen).is_empty() {
         true => Err(OperationError::Inputs {

@@ -17,6 +17,7 @@ pub static OPERATION: Operation = Operation {
     label: "Translate end",
     help: "Translate the terminal vertices of an end so that it meets its target point (step 5)",
     inputs: Inputs::One,
+    each: false,
     parameters: &[END],
     check: check_targets,
     unused: |_| &[],

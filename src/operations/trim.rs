@@ -50,6 +50,7 @@ pub static OPERATION: Operation = Operation {
     label: "Trim curve",
     help: "Keep a part of the curve; between knots (whole u) it is exact",
     inputs: Inputs::One,
+    each: false,
     parameters: &[FROM, TO, SUBDIVISIONS],
     check: check_editable,
     unused: |_| &[],

@@ -207,6 +207,11 @@ fn heading_ui(ui: &mut Ui, in_progress: &OperationInProgress) -> Option<PanelAct
     let mut left = false;
     ui.horizontal(|ui| {
         ui.strong(in_progress.operation().label);
+        let beside = in_progress.input().beside();
+        if !beside.is_empty() {
+            let able = 1 + beside.iter().filter(|(_, it)| it.is_ok()).count();
+            widgets::caption(ui, &format!("{able} of {} selected", 1 + beside.len()));
+        }
         if in_progress.is_applied() {
             widgets::caption(ui, "applied");
             widgets::at_right(ui, |ui| {

@@ -2,6 +2,7 @@
 
 use eframe::egui::text::LayoutJob;
 use eframe::egui::{Label, TextStyle, Ui};
+use lucide_icons::Icon;
 
 use super::atlas::Values;
 use super::feature_comparison::{Comparison, OUTDATED, monotone_ui};
@@ -11,7 +12,8 @@ use super::steady_rows::SteadyRows;
 use super::theme::Tokens;
 use super::trade_off::TradeOff;
 use super::{document_unit, figures, widgets};
-use crate::editor::OperationInProgress;
+use crate::document::{CurveId, quoted};
+use crate::editor::{OperationInProgress, Run};
 use crate::geometry::parameters::Quantity;
 use crate::geometry::rounded_up;
 use crate::operations::{Deviation, Figure, Parameter, Report, Value};
@@ -40,7 +42,12 @@ impl ReportView {
                 ui.multiply_opacity(OUTDATED);
             }
             let run = in_progress.run()?.as_ref().ok()?;
-            self.report_ui(ui, in_progress, &run.report)
+            if let Some(item) = run.item() {
+                widgets::caption(ui, &name_of(in_progress, item));
+            }
+            let clicked = self.report_ui(ui, in_progress, &run.report);
+            others_ui(ui, in_progress, run);
+            clicked
         });
         shown.inner
     }
@@ -97,6 +104,27 @@ impl ReportView {
             _ => None,
         };
         self.trade_off.show(ui, present)
+    }
+}
+
+/// The name of a curve or a reference in a heading.
+fn name_of(in_progress: &OperationInProgress, item: CurveId) -> String {
+    let name = in_progress.input().document().name(item);
+    quoted(name.unwrap_or_default())
+}
+
+/// Tell in a line what was done to each of the other items, or why nothing was.
+fn others_ui(ui: &mut Ui, in_progress: &OperationInProgress, run: &Run) {
+    let error = Tokens::of(ui).error;
+    for other in &run.others {
+        let text = other.line(in_progress.input().document());
+        match other.is_useful() {
+            true => drop(widgets::note(ui, &text)),
+            false => {
+                let icon = Icon::TriangleAlert;
+                widgets::remark_with_icon(ui, icon, &text, error);
+            }
+        }
     }
 }
 

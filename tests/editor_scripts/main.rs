@@ -40,6 +40,7 @@ mod measuring;
 mod menus;
 mod model;
 mod moving_several;
+mod operating_several;
 mod paper;
 mod places;
 mod plots;

@@ -12,6 +12,7 @@ static PANIC: Operation = Operation {
     label: "Panic",
     help: "Panic now and then",
     inputs: Inputs::One,
+    each: false,
     parameters: &[],
     check: |_| Ok(()),
     unused: |_| &[],

@@ -26,9 +26,11 @@ impl Editor {
     }
 
     /// How far an operation would move the active curve with the values that it begins with. `None` if that
-    /// is not known, not yet, or the operation cannot be done.
+    /// is not known, not yet, or the operation cannot be done, and where several curves are selected.
     pub fn foreseen(&self, operation: &Operation) -> Option<Deviation> {
         let curve = self.sight().shown.settled_active()?;
-        self.foreseeing.deviation(curve, operation)
+        let is_alone = !self.hand.selection.has_several_items();
+        let deviation = self.foreseeing.deviation(curve, operation);
+        deviation.filter(|_| is_alone)
     }
 }

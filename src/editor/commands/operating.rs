@@ -4,6 +4,7 @@ use crate::document::{Curve, CurveId, Document};
 use crate::editor::Editor;
 use crate::editor::operating::{Operating, OperationInProgress};
 use crate::editor::reply::{Note, Reply};
+use crate::editor::selection::Selection;
 use crate::geometry::End;
 use crate::operations::{Inputs, Operands, Operation, OperationError, Value};
 
@@ -69,7 +70,8 @@ impl Editor {
     }
 
     /// The input of an operation: the active curve or reference, and the selected curves; where a second one is
-    /// needed and none is selected, the nearest.
+    /// needed and none is selected, the nearest. An operation on each of several items gets all that are selected,
+    /// the active one first, if it can run on it.
     ///
     /// # Errors
     /// [`OperationError`] if the operation cannot run on them, whatever its values.
@@ -78,6 +80,9 @@ impl Editor {
         // The panel fits references of points; the vertices of a curve are fitted from a shell.
         let fits =
             |id: &CurveId| operation.inputs != Inputs::Points || document.reference(*id).is_some();
+        if operation.each && selection.has_several_items() {
+            return each_of(document, operation, selection, fits);
+        }
         let active = selection.active().filter(fits);
         let others = self.document().ids().filter(|id| Some(*id) != active);
         let others = others.filter(|id| selection.has_item(*id));
@@ -89,6 +94,35 @@ impl Editor {
         operation.check(&input)?;
         Ok(input)
     }
+}
+
+/// The input of an operation on each of the selected items: those of other kinds are left out.
+fn each_of(
+    document: &Document,
+    operation: &Operation,
+    selection: &Selection,
+    fits: impl Fn(&CurveId) -> bool,
+) -> Result<Operands, OperationError> {
+    let active = selection.active().filter(|id| selection.has_item(*id));
+    let others = document
+        .all_ids()
+        .filter(|id| selection.has_item(*id) && Some(*id) != active);
+    let chosen = active.into_iter().chain(others).filter(fits).map(|id| {
+        let input = Operands::choose(document, operation.inputs, Some(id), &[]);
+        let checked = input.and_then(|input| operation.check(&input).map(|()| input));
+        (id, checked)
+    });
+    let of_kind = |error: &OperationError| !matches!(error, OperationError::Inputs { .. });
+    let mut chosen: Vec<_> = chosen
+        .filter(|(_, input)| input.as_ref().err().is_none_or(of_kind))
+        .collect();
+    if chosen.is_empty() {
+        let needed = operation.inputs;
+        return Err(OperationError::Inputs { needed });
+    }
+    let first = chosen.iter().position(|(_, input)| input.is_ok());
+    let (_, input) = chosen.remove(first.unwrap_or(0));
+    Ok(input?.with_beside(chosen))
 }
 
 /// The visible, unlocked open curve whose ends are nearest to those of another one.

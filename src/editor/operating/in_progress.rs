@@ -6,15 +6,18 @@ use glam::DVec2;
 
 use super::end_fit_step::EndFitStep;
 use super::fitted_points::FittedPoints;
-use crate::document::{Curve, CurveId, Document};
+use crate::document::{Curve, CurveId, Document, Edit, quoted};
 use crate::editor::selection::Selection;
 use crate::editor::view::{Mark, Viewport};
 use crate::editor::workspace::PreviewId;
 use crate::geometry::Progress;
 use crate::operations::{
     self, FeatureComparison, Handle, Inputs, Operands, Operation, OperationError, Outcome, Report,
-    Values,
+    Share, Values,
 };
+
+/// The most lines on items with a result in a message.
+const MOST_LINES: usize = 4;
 
 /// Hold an operation whose values can be changed: it is previewed, or it made the last step.
 #[derive(Debug)]
@@ -64,10 +67,25 @@ pub(super) struct HandleDrag {
 /// A finished run of an operation.
 #[derive(Debug)]
 pub struct Run {
+    /// What the outcome is of.
+    pub(super) input: Operands,
     /// The edits, figures and marks.
     pub outcome: Outcome,
     /// The report; it gets features once they are proved.
     pub report: Report,
+    /// The results for the other items that it ran on.
+    pub others: Vec<OtherResult>,
+}
+
+/// The result of a run for another item than the one whose report is shown.
+#[derive(Debug)]
+pub struct OtherResult {
+    /// The curve or the reference.
+    pub item: CurveId,
+    /// What the operation ran on; `None` if it cannot run on the item.
+    pub(super) input: Option<Operands>,
+    /// The outcome with its report, or why there is none.
+    pub result: Result<(Outcome, Report), OperationError>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,12 +173,7 @@ impl OperationInProgress {
 
     /// The curves that the operation has made beside inputs that it left as they were.
     pub fn made_curves(&self, now: &Document) -> Vec<CurveId> {
-        if self
-            .input
-            .curves()
-            .iter()
-            .any(|input| is_changed(input, now))
-        {
+        if self.input.all_curves().any(|input| is_changed(input, now)) {
             return Vec::new();
         }
         let before = self.input.document();
@@ -172,7 +185,7 @@ impl OperationInProgress {
     /// input curve belongs to any.
     pub(super) fn belongs_to(&self, active: Option<CurveId>, now: &Document) -> bool {
         self.curve().is_none()
-            || self.curve() == active
+            || active.is_some_and(|active| self.input.all_curves().any(|(id, _)| *id == active))
             || active.is_some_and(|active| self.made_curves(now).contains(&active))
     }
 
@@ -205,7 +218,7 @@ impl OperationInProgress {
         active: Option<CurveId>,
         now: &Document,
     ) -> Vec<Arc<Curve>> {
-        let inputs = self.input.curves().iter();
+        let inputs = self.input.all_curves();
         let changed = inputs.filter(|input| Some(input.0) != active && is_changed(input, now));
         changed.map(|(_, curve)| curve.clone()).collect()
     }
@@ -235,13 +248,121 @@ impl Run {
         values: &Values,
         progress: &Progress,
     ) -> Result<Self, OperationError> {
-        let outcome = operation.run(input, values, progress)?;
-        let report = Report::new(operation, input, &outcome);
-        Ok(Self { outcome, report })
+        let mut results = match input.beside().is_empty() {
+            true => vec![Share {
+                item: input.item(),
+                input: Some(input.clone()),
+                outcome: operation.run(input, values, progress),
+            }],
+            false => operation.run_on_each(input, values, progress),
+        };
+        // The report is that of the first item with a result.
+        let of_use = results
+            .iter()
+            .position(|it| it.outcome.as_ref().is_ok_and(Outcome::is_useful));
+        let first = of_use.or(results.iter().position(|it| it.outcome.is_ok()));
+        let Share {
+            input: own,
+            outcome,
+            ..
+        } = results.remove(first.unwrap_or(0));
+        let (input, outcome) = (own.unwrap_or_else(|| input.clone()), outcome?);
+        let others = results.into_iter().filter_map(|share| {
+            let result = share.outcome.map(|outcome| {
+                let input = share.input.as_ref();
+                let report = input.map(|input| Report::new(operation, input, &outcome));
+                (outcome, report)
+            });
+            Some(OtherResult {
+                item: share.item?,
+                input: share.input,
+                result: match result {
+                    Ok((outcome, report)) => Ok((outcome, report?)),
+                    Err(error) => Err(error),
+                },
+            })
+        });
+        Ok(Self {
+            report: Report::new(operation, &input, &outcome),
+            others: others.collect(),
+            input,
+            outcome,
+        })
     }
 
     /// Whether the result is one to keep.
     pub(super) fn succeeds(&self) -> bool {
         self.outcome.is_useful()
+    }
+
+    /// The curve or the reference whose report is shown, where there are others.
+    pub fn item(&self) -> Option<CurveId> {
+        self.input.item().filter(|_| !self.others.is_empty())
+    }
+
+    /// The edits for all items.
+    pub(super) fn edits(&self) -> Vec<Edit> {
+        let others = self.others.iter().filter_map(|it| it.result.as_ref().ok());
+        let others = others.flat_map(|(outcome, _)| &outcome.edits);
+        self.outcome.edits.iter().chain(others).cloned().collect()
+    }
+
+    /// Whether vertices of any item get other numbers.
+    pub(super) fn renumbers(&self) -> bool {
+        let mut others = self.others.iter().filter_map(|it| it.result.as_ref().ok());
+        self.outcome.renumbered || others.any(|(outcome, _)| outcome.renumbered)
+    }
+
+    /// Whether any item gets more curvature extrema.
+    pub(super) fn warns(&self) -> bool {
+        let mut others = self.others.iter().filter_map(|it| it.result.as_ref().ok());
+        self.report.warns() || others.any(|(_, report)| report.warns())
+    }
+
+    /// Say what was done, of several items line by line; those without a result are always named.
+    pub(super) fn told(&self, document: &Document) -> String {
+        let Some(item) = self.item() else {
+            return self.report.summary();
+        };
+        let name = |id: CurveId| quoted(document.name(id).unwrap_or_default());
+        let done = self.others.iter().filter(|it| it.is_useful()).count();
+        let all = 1 + self.others.len();
+        let counted = match done + 1 == all {
+            true => format!("{all} done"),
+            false => format!("{} of {all} done", done + 1),
+        };
+        let mut lines = vec![format!("{}: {counted}", self.report.label)];
+        // A message shows its first lines: those without a result come first.
+        let failed = self.others.iter().filter(|it| !it.is_useful());
+        lines.extend(failed.map(|it| it.line(document)));
+        let own = format!("{}: {}", name(item), self.report.details());
+        let useful = self.others.iter().filter(|it| it.is_useful());
+        let useful = useful.map(|it| it.line(document));
+        lines.extend([own].into_iter().chain(useful).take(MOST_LINES));
+        lines.extend((done >= MOST_LINES).then(|| format!("{} more", done + 1 - MOST_LINES)));
+        lines.join("\n")
+    }
+}
+
+impl OtherResult {
+    /// Whether there is something to keep.
+    pub fn is_useful(&self) -> bool {
+        self.result
+            .as_ref()
+            .is_ok_and(|(outcome, _)| outcome.is_useful())
+    }
+
+    /// Say of the item what was done, or why nothing was, in one line.
+    pub fn line(&self, document: &Document) -> String {
+        let name = quoted(document.name(self.item).unwrap_or_default());
+        let details = match &self.result {
+            Ok((_, report)) => report.details(),
+            Err(error) => error.to_string(),
+        };
+        // What is locked or hidden is named already.
+        match details.starts_with(&name) {
+            true => details,
+            false => format!("{name}: {details}"),
+        }
     }
 }

@@ -11,6 +11,6 @@ mod points_on_canvas;
 
 pub(in crate::editor) use end_fit_step::EndFitStep;
 pub use fitted_points::FittedPoints;
-pub use in_progress::{OperationInProgress, Run};
+pub use in_progress::{OperationInProgress, OtherResult, Run};
 pub use operations::Operating;
 pub(in crate::editor) use operations::Operations;

@@ -30,7 +30,8 @@ pub(in crate::editor) struct Operations {
 #[derive(Debug)]
 enum JobResult {
     Run(Box<Result<Run, OperationError>>),
-    Features(Option<FeatureComparison>),
+    /// Of the item whose report is shown, and of the others.
+    Features(Vec<Option<FeatureComparison>>),
 }
 
 /// The operations with the parts of the editor that they change.
@@ -394,10 +395,21 @@ impl Operating<'_> {
         let Some(run) = current.finished() else {
             return;
         };
-        let (input, outcome) = (current.input.clone(), run.outcome.clone());
+        let own = (Some(run.input.clone()), Some(run.outcome.clone()));
+        let others = run.others.iter().map(|other| {
+            let outcome = other
+                .result
+                .as_ref()
+                .ok()
+                .map(|(outcome, _)| outcome.clone());
+            (other.input.clone(), outcome)
+        });
+        let all: Vec<_> = [own].into_iter().chain(others).collect();
         let job = move |progress: &Progress| {
-            let features = FeatureComparison::prove(&input, &outcome, progress);
-            Some(JobResult::Features(features))
+            let features = all.iter().map(|(input, outcome)| {
+                FeatureComparison::prove(input.as_ref()?, outcome.as_ref()?, progress)
+            });
+            Some(JobResult::Features(features.collect()))
         };
         client.go_on(job, Some(self.patience));
         self.take_result();
@@ -463,7 +475,7 @@ impl Operating<'_> {
     }
 
     /// Complete the report, and what was told of it: features are proved after the step is done.
-    fn take_features(&mut self, features: Option<FeatureComparison>) {
+    fn take_features(&mut self, features: Vec<Option<FeatureComparison>>) {
         let told = self.reply();
         let Some(current) = &mut self.operations.operation else {
             return;
@@ -471,8 +483,14 @@ impl Operating<'_> {
         let Some(Ok(run)) = &mut current.run else {
             return;
         };
-        current.features.clone_from(&features);
-        run.report.features = features;
+        let mut features = features.into_iter();
+        run.report.features = features.next().flatten();
+        current.features.clone_from(&run.report.features);
+        for (other, features) in run.others.iter_mut().zip(features) {
+            if let Ok((_, report)) = &mut other.result {
+                report.features = features;
+            }
+        }
         let reply = self.reply();
         if *self.message == Message::of(&told) {
             *self.message = Message::of(&reply);
@@ -499,7 +517,7 @@ impl Operating<'_> {
     fn show_run(&mut self) {
         let operation = self.operations.operation.as_ref();
         let run = operation.and_then(OperationInProgress::finished);
-        let edits = run.map_or_else(Vec::new, |run| run.outcome.edits.clone());
+        let edits = run.map_or_else(Vec::new, Run::edits);
         let updated = self.workspace.update(edits);
         Message::tell_update(self.message, updated.err().map(Refusal::from));
         self.document_changed();
@@ -513,7 +531,7 @@ impl Operating<'_> {
         let Some(run) = current.finished() else {
             return;
         };
-        let (label, edits) = (current.operation.label, run.outcome.edits.clone());
+        let (label, edits) = (current.operation.label, run.edits());
         let amended = if self.workspace.history().undo_steps() > steps {
             self.workspace.amend(label, edits)
         } else {
@@ -529,8 +547,8 @@ impl Operating<'_> {
     fn reply(&self) -> Reply {
         match self.operations.operation.as_ref().and_then(|it| it.run()) {
             Some(Ok(run)) if run.succeeds() => Ok(Note {
-                warns: run.report.warns(),
-                ..Note::done(run.report.summary())
+                warns: run.warns(),
+                ..Note::done(run.told(self.workspace.settled()))
             }),
             Some(Ok(run)) => Err(Refusal(run.report.summary())),
             Some(Err(error)) => Err(Refusal(error.to_string())),
@@ -552,7 +570,7 @@ impl Operating<'_> {
         let Some(run) = current.finished().filter(|run| run.succeeds()) else {
             return self.reply();
         };
-        let renumbers = run.outcome.renumbered;
+        let renumbers = run.renumbers();
         let steps = self.workspace.history().undo_steps();
         self.workspace.commit();
         let revision = self.workspace.revision();
