@@ -162,6 +162,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
                 Divider,
                 command(Command::ToggleVisible),
                 command(Command::ToggleLocked),
+                command(Command::Isolate),
             ]);
             entries
         }

@@ -110,37 +110,64 @@ impl Item {
             (false, true) => tokens.text,
             (false, false) => tokens.faint_text,
         };
-        if widgets::label_in(ui, rect, &self.name, colour) {
+        if widgets::name_in(ui, rect, &self.name, colour) {
             response.on_hover_text(&self.name);
         }
     }
 
-    /// A row can be dragged to another place; in the rows of another group it moves to that group.
+    /// A row can be dragged to another place, with all that are selected if it is; in the rows of another group they
+    /// move to that group.
     pub fn reorder(&self, ui: &Ui, editor: &mut Editor, rect: Rect, response: &Response) {
         if response.drag_started() {
-            response.dnd_set_drag_payload(self.id);
+            response.dnd_set_drag_payload(match self.selected {
+                true => Dragged(editor.hand().selection().items()),
+                false => Dragged(vec![self.id]),
+            });
         }
         if response.dragged() {
             ui.set_cursor_icon(CursorIcon::Grabbing);
         }
-        let hovering = response.dnd_hover_payload::<CurveId>();
-        if hovering.is_some_and(|dragged| *dragged != self.id) {
+        let hovering = response.dnd_hover_payload::<Dragged>();
+        if hovering.is_some_and(|dragged| !dragged.0.contains(&self.id)) {
             widgets::outline(ui, rect, 1.5, Tokens::of(ui).accent);
         }
-        let dropped = response.dnd_release_payload::<CurveId>();
-        if let Some(dropped) = dropped.filter(|dropped| **dropped != self.id) {
-            self.take_place(editor, *dropped);
+        let dropped = response.dnd_release_payload::<Dragged>();
+        if let Some(dropped) = dropped.filter(|dropped| !dropped.0.contains(&self.id)) {
+            self.take_place(editor, &dropped.0);
         }
     }
 
-    /// Put another item in its place, and in its group.
-    fn take_place(&self, editor: &mut Editor, dropped: CurveId) {
-        let (group, place) = (self.group.clone(), self.place);
-        let is_same = editor.document().group(dropped) == Some(&group);
-        let curve = dropped;
-        let moved = (!is_same).then_some(Edit::SetGroup { curve, group });
-        let edits = moved.into_iter().chain([Edit::Reorder { curve, place }]);
-        told(editor.apply("Reorder curves", edits.collect()));
+    /// Put other items in its place, in their order, and in its group. Those of the other kind move to the group
+    /// alone.
+    fn take_place(&self, editor: &mut Editor, dropped: &[CurveId]) {
+        let document = editor.document();
+        let others = dropped
+            .iter()
+            .filter(|id| document.group(**id) != Some(&self.group));
+        let grouped = others.map(|curve| Edit::SetGroup {
+            curve: *curve,
+            group: self.group.clone(),
+        });
+        let mut edits: Vec<Edit> = grouped.collect();
+        let before: Vec<CurveId> = match self.is_reference {
+            true => document.references().map(|(id, _)| id).collect(),
+            false => document.ids().collect(),
+        };
+        let after = placed(&before, dropped, self.id);
+        // The places before are those in the end, one after the other.
+        let moved = after.iter().enumerate();
+        let moved = moved.skip_while(|(place, id)| before.get(*place) == Some(*id));
+        let last = (0..before.len())
+            .rev()
+            .find(|place| before.get(*place) != after.get(*place));
+        let moved = moved.take_while(|(place, _)| last.is_some_and(|last| *place <= last));
+        edits.extend(moved.map(|(place, curve)| Edit::Reorder {
+            curve: *curve,
+            place,
+        }));
+        if !edits.is_empty() {
+            told(editor.apply("Reorder curves", edits));
+        }
     }
 
     /// Show its lock and its eye at the right of its row.
@@ -185,5 +212,47 @@ impl Item {
             tooltip,
             Edit::SetVisible { curve, visible },
         );
+    }
+}
+
+/// The items of rows that are dragged.
+pub struct Dragged(pub Vec<CurveId>);
+
+/// The order of items after some of them are put in the place of another one: before it if they come from behind, or
+/// else behind it.
+fn placed(before: &[CurveId], moved: &[CurveId], target: CurveId) -> Vec<CurveId> {
+    let is_moved = |id: &CurveId| moved.contains(id);
+    let place = before.iter().position(|id| *id == target);
+    let from_before = before.iter().take(place.unwrap_or(0)).any(is_moved);
+    let mut after: Vec<CurveId> = before.iter().copied().filter(|id| !is_moved(id)).collect();
+    let place = after.iter().position(|id| *id == target).unwrap_or(0);
+    let place = place + usize::from(from_before);
+    let moved = before.iter().copied().filter(is_moved);
+    after.splice(place..place, moved);
+    after
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::{Curve, Document};
+    use crate::geometry::FloatPolygon;
+
+    #[test]
+    fn rows_that_are_dropped_take_the_place_of_the_row_below_them() {
+        let polygon = FloatPolygon::planar(1, &[(0.0, 0.0), (1.0, 0.0)]).expect("a polygon");
+        let document = Document::from_curves(vec![Curve::new("line", polygon); 5]);
+        let ids: Vec<CurveId> = document.ids().collect();
+        let order = |moved: &[usize], target: usize| -> Vec<usize> {
+            let moved: Vec<CurveId> = moved.iter().map(|place| ids[*place]).collect();
+            let after = placed(&ids, &moved, ids[target]);
+            let place = |id: &CurveId| ids.iter().position(|it| it == id);
+            after.iter().filter_map(place).collect()
+        };
+        assert_eq!(order(&[0], 2), [1, 2, 0, 3, 4]);
+        assert_eq!(order(&[4], 2), [0, 1, 4, 2, 3]);
+        assert_eq!(order(&[0, 1], 3), [2, 3, 0, 1, 4]);
+        assert_eq!(order(&[3, 4], 0), [3, 4, 0, 1, 2]);
+        assert_eq!(order(&[0, 4], 2), [1, 2, 0, 4, 3]);
     }
 }

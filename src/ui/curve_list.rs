@@ -25,6 +25,10 @@ pub struct CurveList {
     renaming: Option<Renaming>,
     /// The groups of which only the headings are shown.
     folded: BTreeSet<Group>,
+    /// The text that names or groups of shown rows contain; `None` while its field is closed.
+    filter: Option<String>,
+    /// Whether the field of the filter has just been opened.
+    opens_filter: bool,
     /// Whether only the heading is shown.
     is_collapsed: bool,
     /// The curve or reference whose row the list scrolled to when it became active.
@@ -67,12 +71,17 @@ impl CurveList {
         if self.is_collapsed {
             return ROW;
         }
+        let field = match self.filter {
+            Some(_) => ROW + ui.spacing().item_spacing.y,
+            None => 0.0,
+        };
+        // Rows come and go while a filter is typed; the list keeps its height.
         let rows = self.row_count(editor.document());
         // The note of an empty list wraps to two lines.
-        ROW + ui.spacing().item_spacing.y + ROW * rows.max(2) as f32
+        ROW + ui.spacing().item_spacing.y + field + ROW * rows.max(2) as f32
     }
 
-    /// How many rows are shown.
+    /// How many rows there are without a filter.
     fn row_count(&self, document: &Document) -> usize {
         let curves = document.curves().map(|(_, curve)| &curve.group);
         let references = document.references().map(|(_, it)| &it.group);
@@ -82,38 +91,83 @@ impl CurveList {
 
     /// Show the list with its heading.
     pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
-        heading_ui(ui, &mut self.is_collapsed, editor, commands);
+        let mut items = Item::all(editor);
+        self.heading_ui(ui, editor, &items, commands);
         if self.is_collapsed {
             return;
         }
-        if editor.document().is_empty() {
+        if items.is_empty() {
             let text = "No curves yet. Draw one with D, or open a file or an example.";
             widgets::note(ui, text);
             return;
         }
-        let renamed = widgets::scrolling(ui, "curves", |ui| {
-            ui.spacing_mut().item_spacing.y = 0.0;
+        self.filter_ui(ui);
+        let mut folded = self.folded.clone();
+        if let Some(filter) = self.filter.as_ref().filter(|filter| !filter.is_empty()) {
+            items.retain(|item| is_found(item, filter));
+            folded.clear();
+        }
+        let rows = rows(&items, |item| &item.group, &folded);
+        if rows.is_empty() {
+            widgets::note(ui, "No name contains this text.");
+            return;
+        }
+        let shown = rows.iter().filter_map(|row| match row {
+            Row::Item { item, .. } => Some(item.id),
+            Row::Group(_) => None,
+        });
+        let shown: Vec<CurveId> = shown.collect();
+        let is_sought = |row: &Row<'_, Item>| match row {
+            Row::Item { item, .. } => item.active,
+            Row::Group(_) => false,
+        };
+        let sought = rows.iter().position(is_sought);
+        let sought = sought.filter(|_| self.in_sight != editor.active());
+        self.in_sight = editor.active();
+        let count = rows.len();
+        let renamed = widgets::scrolling_rows(ui, "curves", count, sought, |ui, seen| {
             let mut renamed = None;
-            let items = Item::all(editor);
-            let rows = rows(&items, |item| &item.group, &self.folded.clone());
-            let shown = rows.iter().filter_map(|row| match row {
-                Row::Item { item, .. } => Some(item.id),
-                Row::Group(_) => None,
-            });
-            let shown: Vec<CurveId> = shown.collect();
-            for row in rows {
+            let passed = (seen.start, seen.len());
+            for row in rows.into_iter().skip(passed.0).take(passed.1) {
                 let named = match row {
-                    Row::Group(group) => self.group_ui(ui, editor, &group.into()),
-                    Row::Item { item, depth } => self.row_ui(ui, editor, item, (depth, &shown)),
+                    Row::Group(group) => {
+                        let heading = Heading::from(group);
+                        let row = |ui: &mut Ui| self.group_ui(ui, editor, &heading);
+                        ui.push_id(&heading.group, row).inner
+                    }
+                    Row::Item { item, depth } => {
+                        let row = |ui: &mut Ui| self.row_ui(ui, editor, item, (depth, &shown));
+                        ui.push_id(item.id, row).inner
+                    }
                 };
                 renamed = named.or(renamed);
             }
-            self.in_sight = editor.active();
             renamed
         });
         // The field takes the keyboard after the row that was clicked has had it.
         if let Some(named) = renamed {
             self.begin_renaming(ui.ctx(), editor, named);
+        }
+    }
+
+    /// Show the field of the filter, if it is open. Esc closes it.
+    fn filter_ui(&mut self, ui: &mut Ui) {
+        let Some(filter) = &mut self.filter else {
+            return;
+        };
+        let field = TextEdit::singleline(filter)
+            .id(filter_id())
+            .hint_text("Part of a name or a group")
+            .desired_width(f32::INFINITY)
+            .align(Align2::LEFT_CENTER)
+            .min_size(vec2(0.0, ROW));
+        let response = ui.add(field).accessible_name("Filter of curves");
+        keyboard::claim(ui.ctx(), filter_id(), Typing::Text, response.rect);
+        if std::mem::take(&mut self.opens_filter) {
+            response.request_focus();
+        }
+        if response.lost_focus() && ui.input(|input| input.key_pressed(Key::Escape)) {
+            self.filter = None;
         }
     }
 
@@ -179,9 +233,6 @@ impl CurveList {
         let (row, response) = widgets::row(ui, Sense::click_and_drag(), item.selected);
         let rect = indented(row, depth);
         item.paint(ui, rect, &response);
-        if item.active && self.in_sight != Some(item.id) {
-            ui.scroll_to_rect(rect, None);
-        }
         item.reorder(ui, editor, row, &response);
         let renames = response.double_clicked();
         if response.clicked() && !renames {
@@ -282,56 +333,92 @@ fn reorder(editor: &mut Editor, curve: CurveId, place: usize) {
     told(editor.apply("Reorder curves", vec![Edit::Reorder { curve, place }]));
 }
 
-fn heading_ui(
-    ui: &mut Ui,
-    is_collapsed: &mut bool,
-    editor: &mut Editor,
-    commands: &mut Vec<Action>,
-) {
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 0.0;
-        let (icon, name) = match *is_collapsed {
-            true => (Icon::ChevronRight, "Expand curve list"),
-            false => (Icon::ChevronDown, "Collapse curve list"),
+/// The field of the filter.
+fn filter_id() -> Id {
+    Id::unique("filter of curves")
+}
+
+/// Whether the name or the group of an item contains a text, whatever the case of its letters.
+fn is_found(item: &Item, text: &str) -> bool {
+    let text = text.trim().to_lowercase();
+    let contains = |name: &str| name.to_lowercase().contains(&text);
+    contains(&item.name) || contains(&item.group.to_string())
+}
+
+impl CurveList {
+    /// Open the field of the filter, or close it and show all rows.
+    fn toggle_filter(&mut self, context: &Context) {
+        self.filter = match self.filter {
+            Some(_) => None,
+            None => {
+                keyboard::claim(context, filter_id(), Typing::Text, Rect::NOTHING);
+                self.opens_filter = true;
+                Some(String::new())
+            }
         };
-        if IconButton::new(icon, name).show(ui).clicked() {
-            *is_collapsed = !*is_collapsed;
-        }
-        ui.strong("Curves");
-        widgets::at_right(ui, |ui| {
+    }
+
+    fn heading_ui(
+        &mut self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        items: &[Item],
+        commands: &mut Vec<Action>,
+    ) {
+        ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
-            for (icon, command) in [
-                (Icon::Trash2, Command::DeleteCurve),
-                (Icon::CopyPlus, Command::Duplicate),
-            ] {
-                let name = command.label_now(editor);
-                let button = IconButton::new(icon, &name).enabled(command.is_enabled(editor));
-                if button.tooltip(command.tooltip()).show(ui).clicked() {
-                    commands.push(command.into());
-                }
-            }
-            let items = Item::all(editor);
-            let active = items.iter().find(|item| item.active);
-            let beside = |active: &Item, is_on_side: fn(usize, usize) -> bool| {
-                let beside = items.iter().filter(|item| item.is_beside(active));
-                let places = beside.map(|item| item.place);
-                let places = places.filter(|place| is_on_side(*place, active.place));
-                places.min_by_key(|place| place.abs_diff(active.place))
+            let (icon, name) = match self.is_collapsed {
+                true => (Icon::ChevronRight, "Expand curve list"),
+                false => (Icon::ChevronDown, "Collapse curve list"),
             };
-            for (icon, name, is_on_side) in [
-                (
-                    Icon::ArrowDown,
-                    "Move curve down",
-                    (|place, own| place > own) as fn(usize, usize) -> bool,
-                ),
-                (Icon::ArrowUp, "Move curve up", |place, own| place < own),
-            ] {
-                let to = active.and_then(|active| Some((active, beside(active, is_on_side)?)));
-                let response = IconButton::new(icon, name).enabled(to.is_some()).show(ui);
-                if let (true, Some((active, place))) = (response.clicked(), to) {
-                    reorder(editor, active.id, place);
-                }
+            if IconButton::new(icon, name).show(ui).clicked() {
+                self.is_collapsed = !self.is_collapsed;
             }
+            ui.strong("Curves");
+            widgets::at_right(ui, |ui| {
+                ui.spacing_mut().item_spacing.x = 0.0;
+                for (icon, command) in [
+                    (Icon::Trash2, Command::DeleteCurve),
+                    (Icon::CopyPlus, Command::Duplicate),
+                    (Icon::Focus, Command::Isolate),
+                ] {
+                    let name = command.label_now(editor);
+                    let button = IconButton::new(icon, &name).enabled(command.is_enabled(editor));
+                    if button.tooltip(command.tooltip()).show(ui).clicked() {
+                        commands.push(command.into());
+                    }
+                }
+                let filter =
+                    IconButton::new(Icon::Search, "Filter curves").enabled(!items.is_empty());
+                if filter
+                    .tooltip("Show rows whose name or group contains a text")
+                    .show(ui)
+                    .clicked()
+                {
+                    self.toggle_filter(ui.ctx());
+                }
+                let active = items.iter().find(|item| item.active);
+                let beside = |active: &Item, is_on_side: fn(usize, usize) -> bool| {
+                    let beside = items.iter().filter(|item| item.is_beside(active));
+                    let places = beside.map(|item| item.place);
+                    let places = places.filter(|place| is_on_side(*place, active.place));
+                    places.min_by_key(|place| place.abs_diff(active.place))
+                };
+                for (icon, name, is_on_side) in [
+                    (
+                        Icon::ArrowDown,
+                        "Move curve down",
+                        (|place, own| place > own) as fn(usize, usize) -> bool,
+                    ),
+                    (Icon::ArrowUp, "Move curve up", |place, own| place < own),
+                ] {
+                    let to = active.and_then(|active| Some((active, beside(active, is_on_side)?)));
+                    let response = IconButton::new(icon, name).enabled(to.is_some()).show(ui);
+                    if let (true, Some((active, place))) = (response.clicked(), to) {
+                        reorder(editor, active.id, place);
+                    }
+                }
+            });
         });
-    });
+    }
 }

@@ -3,7 +3,7 @@
 use eframe::egui::{Color32, Rect, Response, Role, Ui, Vec2, WidgetInfo, vec2};
 use lucide_icons::Icon;
 
-use super::curve_item::Item;
+use super::curve_item::{Dragged, Item};
 use super::group_rows::GroupRow;
 use super::theme::{STEP, Tokens};
 use super::widgets::{self, IconButton};
@@ -74,21 +74,27 @@ impl Heading {
             (false, true) => tokens.text,
             (false, false) => tokens.faint_text,
         };
-        widgets::label_in(ui, rect, &self.name, colour);
+        widgets::name_in(ui, rect, &self.name, colour);
         response.on_hover_text(self.group.to_string());
     }
 
-    /// A row that is dropped on the heading moves to the group.
+    /// Rows that are dropped on the heading move to the group.
     pub fn take_dropped(&self, ui: &Ui, editor: &mut Editor, rect: Rect, response: &Response) {
-        if response.dnd_hover_payload::<CurveId>().is_some() {
+        if response.dnd_hover_payload::<Dragged>().is_some() {
             widgets::outline(ui, rect, 1.5, Tokens::of(ui).accent);
         }
-        let Some(dropped) = response.dnd_release_payload::<CurveId>() else {
+        let Some(dropped) = response.dnd_release_payload::<Dragged>() else {
             return;
         };
-        let (curve, group) = (*dropped, self.group.clone());
-        if editor.document().group(curve) != Some(&group) {
-            told(editor.change(Edit::SetGroup { curve, group }));
+        let others = dropped.0.iter().copied();
+        let others = others.filter(|id| editor.document().group(*id) != Some(&self.group));
+        let edits = others.map(|curve| Edit::SetGroup {
+            curve,
+            group: self.group.clone(),
+        });
+        let edits: Vec<Edit> = edits.collect();
+        if !edits.is_empty() {
+            told(editor.apply("Move to group", edits));
         }
     }
 

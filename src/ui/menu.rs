@@ -232,6 +232,7 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         command(Command::ToggleVisible),
         command(Command::ToggleLocked),
+        command(Command::Isolate),
     ]);
     let mut view = vec![
         command(Command::Fit),

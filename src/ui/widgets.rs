@@ -1,11 +1,12 @@
 //! Small pieces that the panels share.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use eframe::egui::{
     self, Align, Align2, Area, Color32, ComboBox, Context, EventFilter, FontId, Galley, Id,
     InnerResponse, Key, Layout, Modal, Modifiers, Order, Pos2, Rect, RectAlign, Response, RichText,
-    Role, ScrollArea, Sense, Stroke, StrokeKind, Tooltip, Ui, UiBuilder, Vec2, WidgetInfo,
+    Role, ScrollArea, Sense, Stroke, StrokeKind, Tooltip, Ui, UiBuilder, Vec2, WidgetInfo, pos2,
     text::LayoutJob,
 };
 use lucide_icons::Icon;
@@ -332,6 +333,41 @@ pub fn scrolling<R>(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui) -> R
     shown.inner
 }
 
+/// Show rows of equal height in an area that scrolls, as far as they are seen. The row that is `sought` comes into
+/// sight.
+pub fn scrolling_rows<R>(
+    ui: &mut Ui,
+    name: &str,
+    count: usize,
+    sought: Option<usize>,
+    contents: impl FnOnce(&mut Ui, Range<usize>) -> R,
+) -> R {
+    let area = ScrollArea::vertical()
+        .id_salt(name)
+        .auto_shrink([false, false]);
+    let width = ui.available_width() - ui.spacing().scroll.allocated_width();
+    let shown = area.show_viewport(ui, |ui, seen| {
+        ui.set_height(count as f32 * ROW);
+        let (left, top) = (ui.max_rect().left(), ui.max_rect().top());
+        let rows = |from: usize, to: usize| {
+            let [from, to] = [from, to].map(|row| top + row as f32 * ROW);
+            Rect::from_min_max(pos2(left, from), pos2(left + width, to))
+        };
+        if let Some(row) = sought {
+            ui.scroll_to_rect(rows(row, row + 1), None);
+        }
+        let first = ((seen.min.y / ROW).max(0.0) as usize).min(count);
+        let last = (1 + (seen.max.y / ROW).max(0.0) as usize).clamp(first, count);
+        let builder = UiBuilder::new().max_rect(rows(first, last));
+        let inner = ui.scope_builder(builder, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            contents(ui, first..last)
+        });
+        inner.inner
+    });
+    shown.inner
+}
+
 /// A section that folds; whether it is open is remembered.
 pub fn section<R>(
     ui: &mut Ui,
@@ -455,6 +491,33 @@ pub fn cut_short(ui: &Ui, text: &str, width: f32, colour: Color32) -> Arc<Galley
     job.wrap.max_rows = 1;
     job.wrap.break_anywhere = true;
     ui.painter().layout_job(job)
+}
+
+/// Write a name at the left of a box. Where there is too little room its middle is left out: names of many curves
+/// differ at their ends. Returns whether it is cut.
+pub fn name_in(ui: &Ui, rect: Rect, name: &str, colour: Color32) -> bool {
+    let fits = |name: &str| !cut_short(ui, name, rect.width(), colour).elided;
+    if fits(name) {
+        return label_in(ui, rect, name, colour);
+    }
+    let letters: Vec<char> = name.chars().collect();
+    let cut = |kept: usize| -> String {
+        let (before, after) = (kept.div_ceil(2), kept / 2);
+        let first = letters.iter().take(before);
+        let last = letters.iter().skip(letters.len() - after);
+        first.chain(['…'].iter()).chain(last).collect()
+    };
+    // The most letters that fit, by halving.
+    let (mut fitting, mut most) = (0, letters.len());
+    while most - fitting > 1 {
+        let middle = fitting.midpoint(most);
+        match fits(&cut(middle)) {
+            true => fitting = middle,
+            false => most = middle,
+        }
+    }
+    label_in(ui, rect, &cut(fitting), colour);
+    true
 }
 
 /// Show a tooltip at the right of a widget, whether it is enabled or not.

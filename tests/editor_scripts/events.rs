@@ -228,7 +228,10 @@ impl Player {
     fn command(&mut self, command: Command) -> Result<(), String> {
         let is_offered = self.window.is_enabled(command);
         let was_dragging = self.window.is_dragging();
-        let names_items = self.window.message().is_some_and(|text| text.starts_with("Press Del"));
+        let names_items = self
+            .window
+            .message()
+            .is_some_and(|text| text.starts_with("Press Del"));
         // A preview that ends brings back the selection before it.
         let selected = match self.window.is_trying() {
             true => usize::MAX,

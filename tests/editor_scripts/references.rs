@@ -724,6 +724,7 @@ fn commands_of_curves_do_nothing_to_a_reference() {
                 | Command::DeleteCurve
                 | Command::ToggleVisible
                 | Command::ToggleLocked
+                | Command::Isolate
                 | Command::SetUnit(_)
                 | Command::ConvertUnit(_)
                 | Command::Undo

@@ -321,3 +321,40 @@ fn the_matches_that_a_deletion_of_several_dissolves_are_told() {
     script.command(Command::Undo);
     assert_eq!(script.editor.document().matches().len(), 1);
 }
+
+#[test]
+fn isolating_hides_the_others_and_brings_back_what_it_has_hidden() {
+    let (mut script, ids) = four();
+    let [arc, other, short, circle] = ids;
+    hide(&mut script, short);
+    script.editor.hand_mut().select_items([arc, other]);
+    let (before, steps) = (script.editor.document().clone(), script.steps());
+    let visible = |script: &Script| ids.map(|id| script.editor.document().is_visible(id));
+    script.command(Command::Isolate);
+    assert_eq!(visible(&script), [true, true, false, false]);
+    assert_eq!(Command::Isolate.is_checked(&script.editor), Some(true));
+    assert_eq!(script.steps(), steps + 1);
+    // What was hidden before stays hidden.
+    script.command(Command::Isolate);
+    assert_eq!(visible(&script), [true, true, false, true]);
+    assert!(script.editor.document().is_same(&before));
+    script.command(Command::Isolate);
+    script.command(Command::Undo);
+    assert_eq!(Command::Isolate.is_checked(&script.editor), Some(false));
+    // What was shown meanwhile is no more hidden by it.
+    script.editor.hand_mut().select_items([arc]);
+    script.command(Command::Isolate);
+    for curve in [other, circle] {
+        let edit = Edit::SetVisible {
+            curve,
+            visible: true,
+        };
+        script.editor.apply("show", vec![edit]).expect("an edit");
+    }
+    script.command(Command::Isolate);
+    assert_eq!(
+        visible(&script),
+        [true, false, false, false],
+        "it isolates anew"
+    );
+}

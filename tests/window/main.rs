@@ -19,6 +19,7 @@ mod harmony;
 mod help;
 mod importing;
 mod inspecting;
+mod list;
 mod locking;
 mod matching;
 mod menus;

@@ -46,7 +46,9 @@ pub enum Command {
     ToggleVisible,
     /// Lock or unlock the selected curves and references.
     ToggleLocked,
-    /// Fit the selected vertices, or the active curve.
+    /// Hide what is not selected, or show it again.
+    Isolate,
+    /// Fit the selection, or everything.
     Fit,
     /// Fit everything.
     FitAll,
@@ -161,6 +163,7 @@ impl Command {
             Self::TogglePeriodic,
             Self::ToggleVisible,
             Self::ToggleLocked,
+            Self::Isolate,
         ];
         all.extend(Self::units());
         all.extend(LengthUnit::ALL.map(Self::ConvertUnit));
@@ -202,6 +205,7 @@ impl Command {
             Self::ConvertUnit(unit) => return format!("Convert document to {}", unit.name()),
             Self::ToggleVisible => "Visible",
             Self::ToggleLocked => "Locked",
+            Self::Isolate => "Isolate",
             Self::Fit => "Fit selection",
             Self::FitAll => "Fit all",
             Self::ZoomIn => "Zoom in",
@@ -255,9 +259,8 @@ impl Command {
             Self::ToggleLocked => {
                 "Protect the shapes of selected curves from edits, or release them"
             }
-            Self::Fit => {
-                "Show the selected vertices, or the active curve if fewer than two are selected"
-            }
+            Self::Isolate => "Show only what is selected; again, show what that has hidden",
+            Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",
             Self::FitAll => "Show everything",
             Self::ZoomIn => "Enlarge the view",
             Self::ZoomOut => "Show more of the model",
@@ -306,6 +309,7 @@ impl Command {
             Self::SelectAll => ctrl('a'),
             Self::SelectNone => ctrl_shift('a'),
             Self::ToggleVerticesLocked => plain(Key::Character('l')),
+            Self::Isolate => plain(Key::Character('o')),
             Self::Fit => plain(Key::Character('f')),
             Self::FitAll => plain(Key::Character('h')),
             Self::ZoomIn => plain(Key::Character('+')),

@@ -224,6 +224,7 @@ impl Editor {
             Command::TogglePeriodic => Change::periodicity(document, &items)?,
             Command::ToggleVisible => Change::visibility(document, &items)?,
             Command::ToggleLocked => Change::lock(document, &items)?,
+            Command::Isolate => Change::isolation(document, &items, &self.hand.isolated)?,
             _ => return Ok(Note::silent()),
         };
         let deleted = match command {
@@ -231,6 +232,9 @@ impl Editor {
             _ => String::new(),
         };
         let note = self.apply(&change.label, change.edits)?;
+        if command == Command::Isolate {
+            self.hand.isolated = change.taken;
+        }
         let lines = with_lines(deleted + &note.text, &change.left_out.join("\n"));
         Ok(match lines.is_empty() {
             true => note,

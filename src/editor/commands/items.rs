@@ -72,6 +72,32 @@ impl Change {
         })
     }
 
+    /// Hide what is visible beside the items, or show again what of `hidden` is hidden still.
+    pub fn isolation(
+        document: &Document,
+        items: &[CurveId],
+        hidden: &[CurveId],
+    ) -> Result<Self, Refusal> {
+        let hidden = hidden_still(document, hidden);
+        let visible = !hidden.is_empty();
+        let others = document.all_ids();
+        let others = others.filter(|id| !items.contains(id) && document.is_visible(*id));
+        let changed = match visible {
+            true => hidden,
+            false => others.collect(),
+        };
+        if changed.is_empty() {
+            return Err("Nothing else is visible".into());
+        }
+        let label = |_: &[CurveId]| match visible {
+            true => "End isolation".to_owned(),
+            false => format!("Isolate {}", noun(document, items)),
+        };
+        Self::of(changed, label, |curve| {
+            Ok(Edit::SetVisible { curve, visible })
+        })
+    }
+
     /// Unlock the items if all are locked, or lock them.
     pub fn lock(document: &Document, items: &[CurveId]) -> Result<Self, Refusal> {
         let locked = !are_locked(document, items);
@@ -101,6 +127,13 @@ impl Change {
             edit.map_err(|error| format!("{}: {error}", quoted(&curve.name)))
         })
     }
+}
+
+/// The items that are hidden, of those that were.
+pub(super) fn hidden_still(document: &Document, hidden: &[CurveId]) -> Vec<CurveId> {
+    let hidden = hidden.iter().copied();
+    let there = hidden.filter(|id| document.name(*id).is_some());
+    there.filter(|id| !document.is_visible(*id)).collect()
 }
 
 /// Whether all items are visible.

@@ -25,7 +25,8 @@ impl Command {
             | Command::Delete
             | Command::DeleteCurve
             | Command::ToggleVisible
-            | Command::ToggleLocked => active,
+            | Command::ToggleLocked
+            | Command::Isolate => active,
             Command::TogglePeriodic => {
                 let mut curves = items.iter().filter_map(|id| document.curve(*id));
                 curves.any(|curve| curve.check_editable().is_ok())
@@ -74,6 +75,9 @@ impl Command {
             Command::TogglePeriodic => Some(items::are_periodic(document, &items)),
             Command::ToggleVisible => {
                 Some(!items.is_empty() && items::are_visible(document, &items))
+            }
+            Command::Isolate => {
+                Some(!items::hidden_still(document, &editor.hand.isolated).is_empty())
             }
             Command::ToggleLocked => Some(!items.is_empty() && items::are_locked(document, &items)),
             _ => None,

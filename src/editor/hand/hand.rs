@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use crate::document::CurveId;
 use crate::editor::hand::cycle::Cycle;
 use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::GestureMachine;
@@ -42,6 +43,8 @@ pub struct Hand {
     pub(in crate::editor) keeping: Keeping,
     /// The point that is being typed, as far as the text is one.
     pub(in crate::editor) typed: Option<TypedPoint>,
+    /// What the last isolation has hidden.
+    pub(in crate::editor) isolated: Vec<CurveId>,
     /// The requested menu.
     pub(in crate::editor) menu: Option<MenuRequest>,
 }
@@ -53,6 +56,7 @@ impl Hand {
     /// Forget the selection and the settings of a document; the tool stays in use, and the way of drawing.
     pub(in crate::editor) fn begin_document(&mut self) {
         self.selection = Selection::default();
+        self.isolated.clear();
         let (way, vertices_stay) = (self.settings.draw.way, self.settings.vertices_stay);
         self.settings = ToolSettings::default();
         self.settings.draw.way = way;

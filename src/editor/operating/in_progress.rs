@@ -313,7 +313,7 @@ impl Run {
         self.outcome.renumbered || others.any(|(outcome, _)| outcome.renumbered)
     }
 
-    /// Whether any item gets more curvature extrema.
+    /// Whether the user may not want the result of any item.
     pub(super) fn warns(&self) -> bool {
         let mut others = self.others.iter().filter_map(|it| it.result.as_ref().ok());
         self.report.warns() || others.any(|(_, report)| report.warns())
