@@ -6,7 +6,8 @@ mod winding;
 
 use std::hint::black_box;
 
-use batten::editor::{Command, Editor, Layer, Look};
+use batten::document::{Curve, Document};
+use batten::editor::{CombsOf, Command, Editor, Layer, Look};
 use batten::geometry::{ClampedPolygon, FloatPolygon};
 use batten::ui::App;
 use criterion::{Bencher, BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -189,5 +190,47 @@ fn handles(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, drag, handles);
+/// A window on so many curves of so many vertices side by side, all with combs or the first alone.
+fn crowd(count: usize, vertices: usize, combs: CombsOf) -> Window {
+    let curve = |place: usize| {
+        let points = (0..vertices).map(|index| {
+            let x = index as f64;
+            (x, 3.0 * (0.4 * x).sin() + 2.0 * place as f64)
+        });
+        let points: Vec<(f64, f64)> = points.collect();
+        let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
+        Curve::new(format!("curve {place}"), polygon)
+    };
+    let mut editor = Editor::with_document(Document::from_curves((0..count).map(curve)));
+    if !editor.sight().layers().shows(Layer::Comb) {
+        let comb = Command::ToggleLayer(Layer::Comb);
+        editor.execute(comb).expect("a command");
+    }
+    editor
+        .execute(Command::ShowCombs(combs))
+        .expect("a command");
+    Window::on(editor)
+}
+
+fn crowds(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("a frame of many curves while the pointer moves");
+    for (name, count, vertices, combs) in [
+        ("200 of 50 vertices with combs", 200, 50, CombsOf::Visible),
+        ("3 000 of 10 vertices", 3000, 10, CombsOf::Active),
+    ] {
+        let mut window = crowd(count, vertices, combs);
+        let at = window.at(window.polygon().vertex(vertices / 2));
+        group.bench_function(name, |bencher| {
+            let mut step = 0;
+            bencher.iter(|| {
+                step = (step + 1) % 64;
+                let to = at + vec2(10.0 + step as f32, 10.0);
+                black_box(window.frame(vec![Event::PointerMoved(to)]))
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, drag, handles, crowds);
 criterion_main!(benches);

@@ -33,12 +33,12 @@ pub use reply::{Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};
 pub use view::{
-    Bounds, ChainOutlines, ClampedMark, CombSettings, CurvatureDisplay, CurveOutlines, CurveScene,
-    DragReadout, EndFitMarks, EvoluteCrowd, FeatureKind, FeatureMark, FeatureReport, FeatureRow,
-    GAP, GroundGrid, GuideLabel, GuideScene, HoverScene, Layer, LayerRow, LayerSample, Layers,
-    Legs, Look, LossArrow, Mark, MeasuredFigure, NamedView, Orientation, PieceTrend, PlotBand,
-    PlotKind, PlotScene, REACH, Scene, Sight, VertexMark, View, ViewBox, Viewport, Whiskers,
-    grid_steps, ground_grid, view_name,
+    Bounds, ChainOutlines, ClampedMark, CombSettings, CombsOf, CurvatureDisplay, CurveOutlines,
+    CurveScene, DragReadout, EndFitMarks, EvoluteCrowd, FeatureKind, FeatureMark, FeatureReport,
+    FeatureRow, GAP, GroundGrid, GuideLabel, GuideScene, HoverScene, Layer, LayerRow, LayerSample,
+    Layers, Legs, Look, LossArrow, Mark, MeasuredFigure, NamedView, Orientation, PieceTrend,
+    PlotBand, PlotKind, PlotScene, REACH, Scene, Sight, VertexMark, View, ViewBox, Viewport,
+    Whiskers, grid_steps, ground_grid, view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 

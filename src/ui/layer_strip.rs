@@ -11,13 +11,16 @@ use super::number_field::NumberField;
 use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{figures, gizmo, icons, keyboard};
-use crate::editor::{CombSettings, Command, Editor, Layer};
+use crate::editor::{CombSettings, CombsOf, Command, Editor, Layer};
 
 /// The side of a layer's switch.
 const SIDE: f32 = 28.0;
 
 /// The width that the comb's controls take.
-const COMB: f32 = 252.0;
+const COMB: f32 = 252.0 + OF + STEP;
+
+/// The width of the choice of curves that have a comb.
+const OF: f32 = 80.0;
 
 /// Show the strip in the upper left corner of the canvas; where it is narrow, the comb's controls stand
 /// below the layers.
@@ -93,6 +96,7 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
     ui.spacing_mut().item_spacing.x = STEP;
     ui.add_enabled_ui(shown, |ui| {
         caption_ui(ui, "Comb", 38.0);
+        combs_ui(ui, editor, commands);
         scale_ui(ui, editor);
         let reset = IconButton::new(Icon::RotateCcw, "Reset comb scale");
         let reset = reset.tooltip(Command::ResetComb.tooltip());
@@ -102,6 +106,18 @@ fn comb_ui(ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
         caption_ui(ui, "Teeth", 38.0);
         density_ui(ui, editor);
     });
+}
+
+/// The choice of curves that have a comb.
+fn combs_ui(ui: &mut Ui, editor: &Editor, commands: &mut Vec<Action>) {
+    let of = editor.view().combs_of;
+    let all = CombsOf::ALL.map(|of| (of, of.name().to_owned()));
+    let (chosen, response) = widgets::drop_down(ui, "Combs of", OF, &of, all);
+    let tooltip = Command::ShowCombs(of).tooltip();
+    response.on_hover_text(tooltip);
+    if let Some(of) = chosen {
+        commands.push(Command::ShowCombs(of).into());
+    }
 }
 
 fn caption_ui(ui: &mut Ui, text: &str, width: f32) {

@@ -10,7 +10,7 @@ use super::plots::others;
 use super::shell::Shell;
 use super::widgets;
 use crate::editor::{
-    Command, CopyForm, CurvatureDisplay, Editor, Follow, Layer, NamedView, ToolKind,
+    CombsOf, Command, CopyForm, CurvatureDisplay, Editor, Follow, Layer, NamedView, ToolKind,
 };
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::KINDS;
@@ -244,6 +244,8 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
     view.push(Entry::Submenu("Layers", layers()));
     let displays = CurvatureDisplay::ALL.map(|display| command(Command::ShowCurvature(display)));
     view.push(Entry::Submenu("Show curvature", displays.into()));
+    let combs = CombsOf::ALL.map(|of| command(Command::ShowCombs(of)));
+    view.push(Entry::Submenu("Combs", combs.into()));
     view.extend([
         views(),
         Divider,

@@ -1,7 +1,7 @@
 //! Several curves and references, selected together: by clicks, by a box, and what commands make of them.
 
 use batten::document::{Curve, CurveId, Edit, EndMatch, MatchPlace};
-use batten::editor::{Command, CopyForm, Key, Layer, Modifiers};
+use batten::editor::{CombsOf, Command, CopyForm, Key, Layer, Modifiers};
 use batten::geometry::references::KINDS;
 use batten::geometry::{Continuity, End, FloatPolygon};
 use glam::DVec2;
@@ -357,4 +357,35 @@ fn isolating_hides_the_others_and_brings_back_what_it_has_hidden() {
         [true, false, false, false],
         "it isolates anew"
     );
+}
+
+#[test]
+fn combs_stand_on_the_active_curve_the_selection_or_all_that_is_visible() {
+    let (mut script, ids) = four();
+    let [arc, other, short, _] = ids;
+    if !script.editor.sight().layers().shows(Layer::Comb) {
+        script.command(Command::ToggleLayer(Layer::Comb));
+    }
+    let with_comb = |script: &mut Script| -> Vec<CurveId> {
+        let scene = script.scene();
+        let combed = scene.curves.iter().filter(|curve| !curve.comb.is_empty());
+        let combed: Vec<CurveId> = combed.filter_map(|curve| curve.id).collect();
+        ids.into_iter().filter(|id| combed.contains(id)).collect()
+    };
+    assert_eq!(with_comb(&mut script), [arc]);
+    script.editor.hand_mut().select_items([arc, other]);
+    script.command(Command::ShowCombs(CombsOf::Selected));
+    assert_eq!(with_comb(&mut script), [arc, other]);
+    script.command(Command::ShowCombs(CombsOf::Visible));
+    assert_eq!(with_comb(&mut script), ids);
+    hide(&mut script, short);
+    assert!(!with_comb(&mut script).contains(&short));
+    // One scale suits all: the longest tooth of all is a part of the largest curve.
+    script.command(Command::ResetComb);
+    let scale = script.editor.view().comb().scale;
+    script.editor.activate(other);
+    script.command(Command::ResetComb);
+    assert_eq!(script.editor.view().comb().scale, scale);
+    script.command(Command::ShowCombs(CombsOf::Active));
+    assert_eq!(with_comb(&mut script), [other]);
 }

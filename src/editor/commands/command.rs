@@ -6,7 +6,7 @@ use crate::editor::hand::input::{Key, Modifiers};
 use crate::editor::hand::tools::ToolKind;
 use crate::editor::same_shape::KEEP_SHAPE;
 use crate::editor::view::layers::Layer;
-use crate::editor::view::{CurvatureDisplay, NamedView};
+use crate::editor::view::{CombsOf, CurvatureDisplay, NamedView};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{KINDS, ReferenceKind};
 use crate::operations::{self, Operation};
@@ -70,6 +70,8 @@ pub enum Command {
     ToggleBands,
     /// Write curvatures as κ, as radii, or as both.
     ShowCurvature(CurvatureDisplay),
+    /// Show the comb of the active curve, or those of others too.
+    ShowCombs(CombsOf),
     /// Snap to grid, vertices and targets, or not.
     ToggleSnapping,
     /// Let the neighbours of dragged vertices follow, or not.
@@ -135,6 +137,7 @@ impl Command {
                 | Self::ToggleLayer(_)
                 | Self::ToggleBands
                 | Self::ShowCurvature(_)
+                | Self::ShowCombs(_)
                 | Self::ToggleSnapping
                 | Self::Follow(_)
                 | Self::ToggleClosedFollow
@@ -176,6 +179,7 @@ impl Command {
         all.extend(Layer::ALL.map(Self::ToggleLayer));
         all.push(Self::ToggleBands);
         all.extend(CurvatureDisplay::ALL.map(Self::ShowCurvature));
+        all.extend(CombsOf::ALL.map(Self::ShowCombs));
         all.extend([Self::ToggleSnapping, Self::ToggleKeeping]);
         all.extend(Follow::ALL.map(Self::Follow));
         all.extend([Self::ToggleClosedFollow, Self::ToggleKeepShape]);
@@ -218,6 +222,7 @@ impl Command {
             Self::ToggleLayer(layer) => layer.label(),
             Self::ToggleBands => "Feature bands on the canvas",
             Self::ShowCurvature(display) => display.label(),
+            Self::ShowCombs(of) => of.label(),
             Self::ToggleSnapping => "Snapping",
             Self::Follow(follow) => follow.label(),
             Self::ToggleClosedFollow => "Closed vertices follow",
@@ -273,6 +278,7 @@ impl Command {
             Self::ToggleBands => {
                 "Show the bands of rising and falling curvature along the curve, or only under the plot"
             }
+            Self::ShowCombs(_) => "Choose which curves have a comb; all combs have one scale",
             Self::ShowCurvature(_) => "Choose whether the window shows κ, the radius R, or both",
             Self::ToggleSnapping => {
                 "Let dragged points snap to the grid, to vertices and to targets"

@@ -132,6 +132,7 @@ impl Editor {
                 }
             }
             Command::ToggleBands => self.view.bands_only_plotted ^= true,
+            Command::ShowCombs(of) => self.view.combs_of = of,
             Command::ShowCurvature(display) => self.view.curvature_display = display,
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
             Command::Follow(follow) => self.hand.following.toggle(follow),

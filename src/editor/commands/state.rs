@@ -59,6 +59,7 @@ impl Command {
                 Some(compared == other)
             }
             Command::ToggleBands => Some(!editor.view.bands_only_plotted),
+            Command::ShowCombs(of) => Some(editor.view.combs_of == of),
             Command::ShowCurvature(display) => Some(editor.view.curvature_display == display),
             Command::ToggleSnapping => Some(editor.hand.snapping),
             Command::Follow(follow) => Some(editor.hand.following.follow == Some(follow)),

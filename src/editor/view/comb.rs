@@ -5,6 +5,8 @@ use std::ops::RangeInclusive;
 use glam::DVec2;
 
 use crate::analysis::Sample;
+use crate::document::CurveId;
+use crate::editor::selection::Selection;
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{Bounds, ViewBox};
 
@@ -20,6 +22,50 @@ pub struct CombSettings {
 impl CombSettings {
     /// How many teeth a segment may have.
     pub const DENSITY: RangeInclusive<usize> = 1..=64;
+}
+
+/// Which curves and references have a comb; all combs have one scale.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum CombsOf {
+    /// The active one.
+    #[default]
+    Active,
+    /// Those that are selected, and the active one.
+    Selected,
+    /// All that are visible.
+    Visible,
+}
+
+impl CombsOf {
+    /// Every choice, in the order in which they are offered.
+    pub const ALL: [Self; 3] = [Self::Active, Self::Selected, Self::Visible];
+
+    /// The name beside the scale of the comb.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Active => "active",
+            Self::Selected => "selected",
+            Self::Visible => "visible",
+        }
+    }
+
+    /// What menus and the palette call it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Active => "Comb of the active curve",
+            Self::Selected => "Combs of selected curves",
+            Self::Visible => "Combs of visible curves",
+        }
+    }
+
+    /// Whether a curve or a reference that is visible has a comb.
+    pub fn takes(self, id: CurveId, selection: &Selection) -> bool {
+        match self {
+            Self::Active => selection.active() == Some(id),
+            Self::Selected => selection.active() == Some(id) || selection.has_item(id),
+            Self::Visible => true,
+        }
+    }
 }
 
 impl Default for CombSettings {

@@ -102,9 +102,14 @@ impl View {
         let points = points.iter().filter_map(|index| chain.get(*index));
         let places = points.map(|point| orientation.flatten(point));
         scene.points.extend(places);
-        if scene.active && analysis.is_smooth() {
+        if !analysis.is_smooth() {
+            return;
+        }
+        if scene.active {
             append_derived(&mut outlined.curve, sampled, view, (layers, comb), scene);
             self.evolute.hide(&mut scene.evolute, view);
+        } else if self.combs_of.takes(id, shown.selection) {
+            append_comb(&mut outlined.curve, sampled, view, (layers, comb), scene);
         }
     }
 
@@ -177,8 +182,11 @@ impl View {
                 marks.extend(seen.place(index).map(|at| mark(index, at, size)));
             }
         }
-        // Only the active curve shows what is derived from it: the others step back.
+        // Only the active curve shows what is derived from it but its comb: the others step back.
         if !active {
+            if self.combs_of.takes(id, shown.selection) {
+                append_comb(&mut outlined.curve, sampled, view, (layers, comb), scene);
+            }
             return;
         }
         if shows_bands {
@@ -315,6 +323,17 @@ fn append_derived(
     if layers.shows(Layer::Evolute) {
         outlines.append_evolute(sampled, view, &mut scene.evolute);
     }
+    append_comb(outlines, sampled, view, (layers, comb), scene);
+}
+
+/// Append the comb, if combs are shown.
+fn append_comb(
+    outlines: &mut CurveOutlines,
+    sampled: SampledCurve<'_>,
+    view: &ViewBox,
+    (layers, comb): (Layers, CombSettings),
+    scene: &mut CurveScene,
+) {
     if layers.shows(Layer::Comb) {
         outlines.append_comb(sampled, view, &comb, &mut scene.comb);
         outlines.append_teeth(sampled, view, &comb, &mut scene.teeth);

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::document::{CurveId, Document};
-use crate::editor::view::comb::CombSettings;
+use crate::editor::view::comb::{CombSettings, CombsOf};
 use crate::editor::view::layers::Layer;
 use crate::editor::view::outline::Bounds;
 use crate::editor::view::shown::Shown;
@@ -135,14 +135,35 @@ impl View {
         }
     }
 
-    /// The scale at which the comb's longest tooth is as long as the active curve's box; `None` without curvature.
+    /// The scale at which the longest tooth of all combs is as long as the largest box of their curves; `None` without
+    /// curvature.
     pub(super) fn whole_comb_scale(&self, shown: Shown<'_>) -> Option<f64> {
-        let id = shown.active()?;
-        let bounds = self.outlines.get(id)?.curve.bounds();
-        let range = self.analyses.sampled(id)?.samples.curvature()?;
-        let largest = range.high.abs().max(range.low.abs());
-        let scale = (bounds.high - bounds.low).max_element() / largest;
-        Some(scale).filter(|scale| *scale > 0.0 && scale.is_finite())
+        let (mut size, mut largest) = (0.0_f64, 0.0_f64);
+        for id in self.with_comb(shown) {
+            let known = self.analyses.sampled(id).zip(self.outlines.get(id));
+            let Some((sampled, outlined)) = known else {
+                continue;
+            };
+            let bounds = outlined.curve.bounds();
+            size = size.max((bounds.high - bounds.low).max_element());
+            if let Some(range) = sampled.samples.curvature() {
+                largest = largest.max(range.high.abs()).max(range.low.abs());
+            }
+        }
+        Some(size / largest).filter(|scale| *scale > 0.0 && scale.is_finite())
+    }
+
+    /// The curves and references whose combs are shown where combs are, visible or active.
+    fn with_comb(&self, shown: Shown<'_>) -> Vec<CurveId> {
+        if self.combs_of == CombsOf::Active {
+            return shown.active().into_iter().collect();
+        }
+        let document = shown.document();
+        let curves = document.curves().filter(|(_, it)| it.visible);
+        let references = document.references().filter(|(_, it)| it.visible);
+        let all = curves.map(|(id, _)| id).chain(references.map(|(id, _)| id));
+        all.filter(|id| self.combs_of.takes(*id, shown.selection))
+            .collect()
     }
 
     /// Fit the selected vertices, or the active curve where there are fewer than two: one has no extent.
@@ -186,7 +207,6 @@ impl View {
 
     fn bounds_of(&self, id: CurveId, shown: Shown<'_>) -> Bounds {
         let (layers, scale) = (shown.layers, self.comb.scale);
-        let is_active = shown.active() == Some(id);
         let outlined = self.outlines.get(id);
         let Some((sampled, outlined)) = self.analyses.sampled(id).zip(outlined) else {
             return Bounds::EMPTY;
@@ -206,7 +226,7 @@ impl View {
                 bounds = bounds.united(float);
             }
         }
-        if layers.shows(Layer::Comb) && is_active {
+        if layers.shows(Layer::Comb) && self.combs_of.takes(id, shown.selection) {
             // Long teeth are cut off: the curve must not become a speck.
             let around = bounds.grown(COMB_REACH);
             let comb = outlined.curve.comb_bounds(sampled, scale);

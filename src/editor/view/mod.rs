@@ -40,7 +40,7 @@ pub(in crate::editor) mod viewport;
 mod whiskers;
 
 pub use chain_outlines::ChainOutlines;
-pub use comb::CombSettings;
+pub use comb::{CombSettings, CombsOf};
 pub use curvature_display::CurvatureDisplay;
 pub use curve_outlines::{CurveOutlines, PieceTrend};
 pub use end_marks::EndFitMarks;

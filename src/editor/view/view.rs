@@ -12,7 +12,7 @@ use crate::editor::jobs::guides::{FeatureOf, Guides};
 use crate::editor::jobs::measuring::Measuring;
 use crate::editor::jobs::patience::Patience;
 use crate::editor::jobs::proving::Proving;
-use crate::editor::view::comb::CombSettings;
+use crate::editor::view::comb::{CombSettings, CombsOf};
 use crate::editor::view::curvature_display::CurvatureDisplay;
 use crate::editor::view::evolute::EvoluteCrowd;
 use crate::editor::view::feature_report::FeatureReport;
@@ -50,6 +50,8 @@ pub struct View {
     pub(in crate::editor) comb: CombSettings,
     /// The curve or reference that the comb was last made to suit.
     combed: Option<CurveId>,
+    /// Which curves and references have a comb.
+    pub combs_of: CombsOf,
     /// Whether the evolute of the active curve is drawn where it would cover much of the view.
     pub evolute: EvoluteCrowd,
     /// How distances of points that are fitted are drawn.
