@@ -389,3 +389,20 @@ fn combs_stand_on_the_active_curve_the_selection_or_all_that_is_visible() {
     script.command(Command::ShowCombs(CombsOf::Active));
     assert_eq!(with_comb(&mut script), [other]);
 }
+
+#[test]
+fn fitting_the_selection_fits_the_curves() {
+    let (mut script, [arc, other, short, _]) = four();
+    script.editor.hand_mut().select_items([other, short]);
+    script.command(Command::Fit);
+    let view = script.editor.view().viewport().view_box();
+    let holds = |script: &Script, id: CurveId, share: f64| {
+        let at = on(script, id, share);
+        view.holds(script.editor.view().viewport().to_model(at))
+    };
+    assert!(holds(&script, other, 0.0) && holds(&script, short, 1.0));
+    assert!(
+        !holds(&script, arc, 0.5),
+        "what is not selected is out of sight"
+    );
+}

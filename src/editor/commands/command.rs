@@ -265,7 +265,7 @@ impl Command {
                 "Protect the shapes of selected curves from edits, or release them"
             }
             Self::Isolate => "Show only what is selected; again, show what that has hidden",
-            Self::Fit => "Show the selected vertices, or everything if fewer than two are selected",
+            Self::Fit => "Show the selected vertices, or the selected curves if fewer than two are",
             Self::FitAll => "Show everything",
             Self::ZoomIn => "Enlarge the view",
             Self::ZoomOut => "Show more of the model",

@@ -166,17 +166,12 @@ impl View {
             .collect()
     }
 
-    /// Fit the selected vertices, or the active curve where there are fewer than two: one has no extent.
+    /// Fit the selected vertices, or the selected curves where there are fewer than two: one has no extent.
     pub(super) fn fit_selection(&mut self, shown: Shown<'_>) {
-        self.reset_comb(shown);
         if shown.selection.vertices().len() < 2 {
-            let active = shown.active().into_iter();
-            let bounds = self.bounds_of_all(active, shown);
-            return match bounds.is_empty() {
-                true => self.show_all(shown),
-                false => self.fit_bounds(&bounds, shown.document()),
-            };
+            return self.fit_items(shown);
         }
+        self.reset_comb(shown);
         let mut bounds = Bounds::EMPTY;
         for (curve, index) in shown.selection.vertices() {
             if let Some(curve) = shown.document().curve(curve) {
@@ -184,6 +179,18 @@ impl View {
             }
         }
         self.viewport = self.viewport.fitted(&bounds);
+    }
+
+    /// Fit the selected curves and references, as far as they are visible.
+    fn fit_items(&mut self, shown: Shown<'_>) {
+        self.reset_comb(shown);
+        let items = shown.selection.items().into_iter();
+        let items = items.filter(|id| shown.document().is_visible(*id));
+        let bounds = self.bounds_of_all(items, shown);
+        match bounds.is_empty() {
+            true => self.fit_all(shown),
+            false => self.fit_bounds(&bounds, shown.document()),
+        }
     }
 
     fn bounds_of_all(&self, ids: impl Iterator<Item = CurveId>, shown: Shown<'_>) -> Bounds {
