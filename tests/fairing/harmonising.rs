@@ -519,3 +519,28 @@ fn a_stretch_that_is_none_is_refused() {
     assert!(run(&polygon, [end + 1.0, 3.0]).contains("two different numbers"));
     assert!(run(&polygon, [10.6, 10.2]).contains("let a whole number lie between"));
 }
+
+#[test]
+fn a_faint_inflection_at_an_end_goes_with_a_small_move() {
+    // A fit to a noisy scan, about 100 large; its first few per cent bend the other way.
+    let vertices = [
+        (-23.306, 10.524),
+        (-69.281, 34.301),
+        (-46.187, 21.775),
+        (-28.265, 6.4971),
+        (-12.993, 1.0952),
+        (-1.1188, 0.13056),
+        (9.3319, 1.3865),
+        (20.723, 5.2196),
+        (33.856, 13.979),
+        (46.465, 31.412),
+        (51.018, 61.304),
+        (29.176, 103.33),
+    ];
+    let polygon = FloatPolygon::planar(5, &vertices).expect("a polygon");
+    let found = harmonise(&polygon, &asked(0, 0), &Progress::default()).expect("a result");
+    assert!(found.reached);
+    assert!(found.deviation < 0.3, "{}", found.deviation);
+    // Its vertices stay where a hand can drag them.
+    assert!(largest_move(&polygon, &found.polygon) < polygon.size());
+}

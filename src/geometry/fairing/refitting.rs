@@ -1,7 +1,7 @@
 //! Fits to a curve that is to be harmonised: nearly the same curve with the features asked for.
 
 use super::counts::counted;
-use super::harmonised::{Harmonised, Harmony, Held};
+use super::harmonised::{Harmonised, Harmony, Held, flung};
 use super::joint_correction::{Disturbance, correct_jointly};
 use super::requirement::{Check, PlaceRequest, Requirement};
 use crate::geometry::distance::MeasuredDeviation;
@@ -11,6 +11,9 @@ use crate::geometry::features::Features;
 use crate::geometry::fitting::{Refit, refit};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
+
+/// How often vertices that go far away are held in another try.
+const HELD: usize = 2;
 
 /// The share of the time that is left for a fit; the rest proves and measures it.
 const FIT: f64 = 0.8;
@@ -47,18 +50,18 @@ pub(super) fn fitted(
     progress: &Progress,
 ) -> Vec<Harmonised> {
     let most = harmony.largest_deviation.unwrap_or(f64::INFINITY);
-    let tried = |inflections: Option<usize>, share: f64| {
+    let tried = |inflections: Option<usize>, locked: &[usize], share: f64| {
         let asked = Refit {
             extrema: known.request.extrema,
             inflections,
             kept,
-            locked: harmony.locked,
+            locked,
         };
         let refitted = refit(polygon, &asked, &progress.hurried(share))?;
         let is_limit = |it: &Requirement| matches!(it, Requirement::Limit { .. });
         let requirements = known.requirements.iter().filter(|it| !is_limit(it));
         let requirements: Vec<Requirement> = requirements.cloned().collect();
-        let refitted = with_ends(refitted, &requirements, harmony.locked, progress);
+        let refitted = with_ends(refitted, &requirements, locked, progress);
         let features = Features::proved(&refitted, |_| !progress.is_cancelled())?;
         let found = counted(&features, true, None);
         let measured = MeasuredDeviation::between(&refitted, polygon, progress).ok()?;
@@ -84,11 +87,26 @@ pub(super) fn fitted(
     // A fit that does not look at inflections often has as many as are asked for, and is found where one that forces
     // them is not; where no number is given, fewer will do.
     let own = Some(known.request.inflections);
-    let tries = [(own, 0.5 * FIT), (None, FIT)];
-    let found = tries
-        .into_iter()
-        .filter_map(|(inflections, share)| tried(inflections, share));
-    found.collect()
+    let mut found: Vec<Harmonised> = Vec::new();
+    let mut locked = harmony.locked.to_vec();
+    // Outer vertices hardly act. Those that go far away stay where they are in another try, at little cost.
+    for _ in 0..=HELD {
+        let tries = [(own, 0.5 * FIT), (None, FIT)].into_iter();
+        let tries = tries.filter_map(|(inflections, share)| tried(inflections, &locked, share));
+        let new: Vec<Harmonised> = tries.collect();
+        let flung = new.iter().map(|it| flung(polygon, &it.polygon));
+        let flung: Option<Vec<(usize, f64)>> = flung.collect();
+        found.extend(new);
+        match flung {
+            Some(flung) if !flung.is_empty() => {
+                locked.extend(flung.iter().map(|(vertex, _)| *vertex));
+                locked.sort_unstable();
+                locked.dedup();
+            }
+            _ => break,
+        }
+    }
+    found
 }
 
 /// Give a fitted curve just the ends that are required; as it was if it has them, or they cannot be met.
