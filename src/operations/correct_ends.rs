@@ -8,6 +8,7 @@ use super::amount::Amount;
 use super::editable::{check_measurable, open};
 use super::end_change::{is_another, moved_far, warnings_of_change};
 use super::error::OperationError;
+use super::features::remark_on_lost_inflections;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, locked};
 use super::operands::Operands;
@@ -258,7 +259,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         }
         Some(polygon) => {
             let turned = turned_over(&curve.polygon, &polygon);
-            let warnings = warnings_of_change(curve, &polygon, turned.as_deref())?;
+            let mut warnings = warnings_of_change(curve, &polygon, turned.as_deref())?;
+            warnings.extend(remark_on_lost_inflections(
+                &curve.polygon,
+                &polygon,
+                progress,
+            )?);
             let is_wrong = turned.is_some() || is_another(curve, &polygon)?;
             let outcome = corrected(id, curve, polygon)?;
             let failed = is_wrong.then_some(Requirement::Failed { left: None });

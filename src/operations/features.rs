@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
 
+use super::error::OperationError;
 use super::harmony_json;
 use super::operands::Operands;
 use super::outcome::Outcome;
@@ -71,15 +72,50 @@ impl FeatureComparison {
         })
     }
 
-    /// Say that there are more curvature extrema than in the curves before.
-    pub(super) fn remark_on_more(&self) -> Option<String> {
-        let sum = |curves: &[FeatureCounts]| -> usize {
-            curves.iter().map(|it| it.curvature_extrema).sum()
-        };
-        let [before, now] = [&self.before, &self.after].map(|curves| sum(curves));
-        let has_more = !self.before.is_empty() && now > before;
-        has_more.then(|| format!("Curvature extrema: {before} before, {now} now"))
+    /// Say that there are more inflections or curvature extrema than in the curves before.
+    pub(super) fn remarks_on_more(&self) -> Vec<String> {
+        let kinds = [
+            ("Inflections", self.more(|it| it.inflections)),
+            ("Zeros of the torsion", self.more(|it| it.torsion_zeros)),
+            ("Curvature extrema", self.more(|it| it.curvature_extrema)),
+        ];
+        let told = kinds.into_iter().filter_map(|(kind, counts)| {
+            let [before, now] = counts?;
+            Some(format!("{kind}: {before} before, {now} now"))
+        });
+        told.collect()
     }
+
+    /// A count before and now, if there was a curve and it has grown.
+    fn more(&self, of: fn(&FeatureCounts) -> usize) -> Option<[usize; 2]> {
+        let sum = |curves: &[FeatureCounts]| curves.iter().map(of).sum::<usize>();
+        let counts = [&self.before, &self.after].map(|curves| sum(curves));
+        (!self.before.is_empty() && counts[1] > counts[0]).then_some(counts)
+    }
+}
+
+/// Say that a curve that took another's place has lost inflections, in space zeros of the torsion.
+///
+/// # Errors
+/// [`OperationError::Cancelled`].
+pub(super) fn remark_on_lost_inflections(
+    before: &FloatPolygon,
+    after: &FloatPolygon,
+    progress: &Progress,
+) -> Result<Option<String>, OperationError> {
+    let count = |polygon: &FloatPolygon| {
+        let features = Features::proved(polygon, |_| !progress.is_cancelled());
+        let features = features.ok_or(OperationError::Cancelled)?;
+        Ok::<usize, OperationError>(
+            features.count(Feature::Inflection) + features.count(Feature::TorsionZero),
+        )
+    };
+    let (was, now) = (count(before)?, count(after)?);
+    let kind = match before.is_planar() {
+        true => "Inflections",
+        false => "Zeros of the torsion",
+    };
+    Ok((now < was).then(|| format!("{kind}: {was} before, {now} now")))
 }
 
 impl FeatureCounts {

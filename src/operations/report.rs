@@ -59,10 +59,11 @@ pub struct LargestMove {
 }
 
 impl Report {
-    /// Whether the user may not want the result: there is a warning, or curvature extrema are added.
+    /// Whether the user may not want the result: there is a warning, or inflections or curvature
+    /// extrema are added.
     pub fn warns(&self) -> bool {
         let features = self.features.as_ref();
-        !self.warnings.is_empty() || features.is_some_and(|it| it.remark_on_more().is_some())
+        !self.warnings.is_empty() || features.is_some_and(|it| !it.remarks_on_more().is_empty())
     }
 
     /// Find one of the operation's own figures.
@@ -136,7 +137,7 @@ impl Report {
     ) -> Option<Self> {
         let features = FeatureComparison::prove(input, outcome, progress)?;
         let mut report = Self::new(operation, input, outcome);
-        report.warnings.extend(features.remark_on_more());
+        report.warnings.extend(features.remarks_on_more());
         report.features = Some(features);
         Some(report)
     }

@@ -1,11 +1,11 @@
 //! Operations that bring ends to their targets.
 
 use batten::geometry::end_correction::{EndDifference, EndTarget};
-use batten::geometry::{End, FloatPolygon};
-use batten::operations::{Annotation, Deviation, Value};
+use batten::geometry::{End, FloatPolygon, Progress};
+use batten::operations::{Annotation, Deviation, Report, Value};
 use glam::DVec3;
 
-use crate::runner::{Runner, apart, beside};
+use crate::runner::{Runner, apart, beside, operation};
 
 /// What is left at an end that meets its target, in units of the curve's size.
 const MET: f64 = 1e-12;
@@ -335,4 +335,35 @@ fn missing_targets_and_directions_are_refused() {
     );
     let message = Runner::example("periodic").refused("correct-ends", &[]);
     assert!(message.ends_with("open it first"), "{message}");
+}
+
+#[test]
+fn a_correction_tells_the_inflections_that_it_makes() {
+    let vertex = |index: usize| {
+        let angle = 0.15 * index as f64;
+        (angle.cos(), angle.sin())
+    };
+    let vertices: Vec<(f64, f64)> = (0..14).map(vertex).collect();
+    let arc = FloatPolygon::planar(4, &vertices).expect("a polygon");
+    let end = arc.end_jet(End::Finish);
+    let tangent = end.tangent().expect("a tangent");
+    let target = EndTarget {
+        direction: Some(tangent + 0.8 * DVec3::new(tangent.y, -tangent.x, 0.0)),
+        ..EndTarget::keeping(&end)
+    };
+    let runner = Runner::of(arc).with_target(End::Finish, target);
+    let outcome = runner.run("correct-ends", &[]).expect("an outcome");
+    let input = &runner.input;
+    let report = Report::of(
+        operation("correct-ends"),
+        input,
+        &outcome,
+        &Progress::default(),
+    );
+    let remarks = report.expect("nobody cancels").remarks;
+    let mut told = remarks.iter();
+    assert!(
+        told.any(|it| it.starts_with("Inflections: 0 before, ")),
+        "{remarks:?}"
+    );
 }
