@@ -2,12 +2,14 @@
 
 use super::amount::Amount;
 use super::error::OperationError;
+use super::features::remark_on_lost_inflections;
 use super::lists::given;
 use super::operands::Operands;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::parameter::{Kind, POSITIVE, Parameter};
 use super::values::Values;
 use crate::document::ParameterSpan;
+use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::fairing::counts::CountRequest;
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::{Feature, Features};
@@ -40,6 +42,9 @@ const MOST_FOR_FEATURES: usize = 2000;
 /// The factor by which segments grow where features are not kept.
 const GROWTH: f64 = 1.3;
 
+/// The bound of a deviation may be so many times the distance of the curves.
+const LOOSE: f64 = 6.0;
+
 /// The most and the fewest times as many segments that are tried next where the tolerance is missed.
 const NEXT: [f64; 2] = [1.05, 4.0];
 
@@ -53,12 +58,22 @@ pub(super) fn changed(
 ) -> Result<Outcome, OperationError> {
     let (polygon, degree) = (input.polygon()?, values.whole(degree));
     match given(values, &TOLERANCE) {
-        None => instead(input, polygon.with_degree(degree)?),
+        None => {
+            let changed = polygon.with_degree(degree)?;
+            let lost = remark_on_lost_inflections(polygon, &changed.polygon, progress)?;
+            let mut outcome = instead(input, changed)?;
+            outcome.remarks.extend(lost);
+            Ok(outcome)
+        }
         tolerance => {
             let goal = Goal {
                 degree,
                 segments: None,
-                least: polygon.segments(),
+                least: if polygon.is_periodic() {
+                    polygon.segments()
+                } else {
+                    1
+                },
                 tolerance,
             };
             refitted(input, &goal, progress)
@@ -101,9 +116,13 @@ pub(super) fn refitted(
     let keeps = own.is_kept(&found.polygon, progress)?;
     let mut outcome = instead(input, found)?;
     if !keeps {
-        outcome.remarks.push(
-            "Inflections or extrema change: take more vertices, or another degree".to_owned(),
-        );
+        let more = match goal.segments {
+            Some(_) => "take more vertices",
+            None => "give a smaller tolerance",
+        };
+        outcome.remarks.push(format!(
+            "Inflections or extrema change: {more}, or another degree"
+        ));
     }
     outcome.requirements = vec![(id, requirements)];
     outcome
@@ -162,8 +181,10 @@ pub(super) fn fewest(
 ) -> Result<Approximation, OperationError> {
     let own = Shape::of(polygon, progress)?;
     let tolerance = goal.tolerance.unwrap_or(f64::INFINITY);
+    let refitted =
+        |segments: usize| nearer_bound(polygon, goal.degree, segments, tolerance, progress);
     let mut missed = goal.least.saturating_sub(1);
-    let mut found = polygon.refitted(goal.degree, goal.least)?;
+    let mut found = refitted(goal.least)?;
     let order = goal.degree as f64 + 1.0;
     while found.deviation > tolerance {
         if progress.is_cancelled() {
@@ -177,22 +198,25 @@ pub(super) fn fewest(
         if next > MAX_PART_SEGMENTS {
             return Ok(found);
         }
-        found = polygon.refitted(goal.degree, next)?;
+        found = refitted(next)?;
     }
     while found.polygon.segments() > missed + 1 {
         if progress.is_cancelled() {
             return Err(OperationError::Cancelled);
         }
         let middle = missed.midpoint(found.polygon.segments());
-        let tried = polygon.refitted(goal.degree, middle)?;
+        let tried = refitted(middle)?;
         match tried.deviation <= tolerance {
             true => found = tried,
             false => missed = middle,
         }
     }
     let kept = found.clone();
+    // The most segments that are known to lose features.
+    let mut lost = None;
     while Shape::of(&found.polygon, progress)? != own {
         let segments = found.polygon.segments();
+        lost = Some(segments);
         let grown = (segments + 1).max((GROWTH * segments as f64).round() as usize);
         // Halved segments give the curve itself, and so its features.
         let halved = (1..usize::BITS).map(|halvings| polygon.segments() << halvings);
@@ -204,9 +228,36 @@ pub(super) fn fewest(
         if own.0.is_none() || next > MOST_FOR_FEATURES {
             return Ok(kept);
         }
-        found = polygon.refitted(goal.degree, next)?;
+        found = refitted(next)?;
+    }
+    while let Some(low) = lost.filter(|low| found.polygon.segments() > low + 1) {
+        let middle = low.midpoint(found.polygon.segments());
+        let tried = refitted(middle)?;
+        match tried.deviation <= tolerance && Shape::of(&tried.polygon, progress)? == own {
+            true => found = tried,
+            false => lost = Some(middle),
+        }
     }
     Ok(found)
+}
+
+/// The nearest curve with so many segments. Unless the bound in its own parameter misses the tolerance by far, the distance
+/// of the curves counts, if it can be bounded.
+fn nearer_bound(
+    polygon: &FloatPolygon,
+    degree: usize,
+    segments: usize,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Approximation, OperationError> {
+    let found = polygon.refitted(degree, segments)?;
+    if found.exact || tolerance.is_infinite() || found.deviation > LOOSE * tolerance {
+        return Ok(found);
+    }
+    let measured = MeasuredDeviation::between(&found.polygon, polygon, progress);
+    let measured = measured.ok().filter(|it| it.bounded);
+    let deviation = measured.map_or(found.deviation, |it| it.largest.min(found.deviation));
+    Ok(Approximation { deviation, ..found })
 }
 
 /// The inflections (in space zeros of the torsion) and the curvature extrema of two curves; `None` if they have the same

@@ -11,6 +11,9 @@ use glam::DVec3;
 use crate::common::Random;
 use crate::runner::{ROUNDING, Runner, apart, beside, examples};
 
+/// How much larger a bound may be than the distance at samples.
+const TIGHT: f64 = 1.2;
+
 fn degree(degree: usize) -> [(&'static str, Value); 1] {
     [("degree", Value::Whole(degree))]
 }
@@ -256,10 +259,18 @@ fn counts(polygon: &FloatPolygon) -> [usize; 4] {
     .map(|kind| features.count(kind))
 }
 
-/// How far a curve is from another one that runs evenly along it, at most, and what its ends do not keep.
+/// How far a curve is from another one that runs about evenly along it, at most, and what its ends do not keep.
 fn off(before: &FloatPolygon, after: &FloatPolygon) -> [f64; 2] {
     let pace = after.segments() as f64 / before.segments() as f64;
-    let apart = apart(before, after, |u| pace * u);
+    let across = |step: usize| {
+        let u = step as f64 / 40.0;
+        let jet = after.jet(pace * u);
+        // What one runs ahead of the other is no distance of the curves.
+        let gap = before.point(u) - jet.point;
+        gap.cross(jet.first.normalize()).length()
+    };
+    let apart = (0..=40 * before.segments()).map(across);
+    let apart = apart.fold(0.0, f64::max);
     let missed = End::BOTH.map(|end| {
         let [old, new] = [before, after].map(|it| it.end_jet(end));
         let turned = old.first.normalize().cross(new.first.normalize());
@@ -316,7 +327,7 @@ fn refining_takes_as_few_vertices_as_keep_a_tolerance() {
             ("reduce-degree", degree - 1),
         ] {
             let given = [&given[..], &[("degree", Value::Whole(changed))]].concat();
-            let (_, curves) = runner.done(operation, &given);
+            let (outcome, curves) = runner.done(operation, &given);
             let other = &curves[0].polygon;
             assert_eq!(other.degree(), changed);
             let [apart, missed] = off(before, other);
@@ -325,8 +336,22 @@ fn refining_takes_as_few_vertices_as_keep_a_tolerance() {
                 "{operation}: {apart:e} {missed:e}"
             );
             assert_eq!(counts(other), counts(before), "{operation}");
+            let Deviation::AtMost(bound) = outcome.deviation else {
+                panic!("{operation}: {outcome:?}");
+            };
+            assert!(bound <= TIGHT * apart, "{operation}: {bound:e} {apart:e}");
         }
     }
+}
+
+#[test]
+fn a_lower_degree_tells_the_inflection_that_it_loses() {
+    let bent = [(0.0, 0.0), (1.0, 1.0), (2.0, -0.8), (3.0, 0.5)];
+    let runner = Runner::of(FloatPolygon::planar(3, &bent).expect("a polygon"));
+    assert_eq!(counts(runner.polygon())[0], 1);
+    let (outcome, _) = runner.done("reduce-degree", &[]);
+    let told = "Inflections: 1 before, 0 now".to_owned();
+    assert!(outcome.remarks.contains(&told), "{:?}", outcome.remarks);
 }
 
 #[test]
