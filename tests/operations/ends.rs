@@ -360,7 +360,7 @@ fn a_correction_tells_the_inflections_that_it_makes() {
         &outcome,
         &Progress::default(),
     );
-    let remarks = report.expect("nobody cancels").remarks;
+    let remarks = report.expect("nobody cancels").warnings;
     let mut told = remarks.iter();
     assert!(
         told.any(|it| it.starts_with("Inflections: 0 before, ")),
