@@ -78,6 +78,9 @@ const MERGING: Duration = Duration::from_secs(10);
 /// A curve that moves by more than this share of its size was hardly symmetric.
 const FAR: f64 = 0.1;
 
+/// A curve that moves by more than this share of its size is another one.
+const ANOTHER: f64 = 0.25;
+
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "make-symmetric",
@@ -158,6 +161,9 @@ fn nearest(
     let deviation = polygon.deviation(&symmetric)?;
     let mut outcome = Outcome::reshaped(id, symmetric, Deviation::AtMost(deviation));
     let size = BezierPolygon::from_float(polygon).size();
+    if deviation > ANOTHER * size {
+        outcome.requirements = vec![(id, vec![Requirement::Failed { left: None }])];
+    }
     if deviation > FAR * size {
         let moved = significant(deviation, 3);
         outcome.warnings.push(format!(

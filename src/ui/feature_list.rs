@@ -271,7 +271,7 @@ fn row_ui(
     };
     // As many digits as there is room for.
     let fits = |text: &String| !widgets::cut_short(ui, text, left.width(), tokens.text).elided;
-    let bends = (2..=4).rev().filter_map(bend_with);
+    let bends = (3..=4).rev().filter_map(bend_with);
     let alone = || Some(radius_with(4)?.trim_start_matches(", ").to_owned());
     let short = bends.into_iter().find(fits);
     let short = short.or_else(|| bend_with(4).and_then(|_| alone()));

@@ -111,6 +111,16 @@ fn every_operation_is_listed_has_help_and_reports_by_one_schema() {
             // A copy goes on from its curve where it may move.
             "join" => &[name, &file, &file, "out.batten", "--move-second"],
             "to-float" => &[name, "round.batten", "out.batten"],
+            // The hull's middle.
+            "make-symmetric" => &[
+                name,
+                &file,
+                "out.batten",
+                "--from",
+                "4200,0",
+                "--to",
+                "4200,1",
+            ],
             _ => &[name, &file, "out.batten"],
         };
         let report = report(&folder, read);
@@ -656,8 +666,8 @@ fn matched_curves_follow_and_locked_vertices_stay() {
     assert_eq!(
         report["remarks"],
         json!([
-            "1 locked vertex keeps the coordinates",
-            "Curvature extrema: 2 before, 4 now"
+            "Curvature extrema: 2 before, 4 now",
+            "1 locked vertex keeps the coordinates"
         ])
     );
     let text = fs::read_to_string(folder.path("out.batten")).unwrap();

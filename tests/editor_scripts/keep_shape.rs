@@ -128,6 +128,8 @@ fn a_vertex_in_a_single_segment_leaves_the_curve_itself() {
     script.move_to(leg(&script, 2));
     assert!(script.editor.hint().contains("No deviation"));
     script.click(leg(&script, 2));
+    let message = script.message();
+    assert!(message.contains("eviation"), "{message}");
     let off = apart(&polygon, &script.polygon());
     assert!(off <= ROUNDING * polygon.size(), "{off:e}");
 }

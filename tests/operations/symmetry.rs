@@ -40,6 +40,12 @@ fn the_mean_of_both_halves_keeps_the_number_of_vertices() {
         let vertices = polygon.vertices().iter().map(|it| *it - middle);
         let weights = polygon.weights().map(<[f64]>::to_vec);
         let polygon = FloatPolygon::new(4, vertices.collect(), weights, false).expect("a polygon");
+        let even = polygon.symmetrised(&MIRROR).expect("a polygon");
+        let shift = |index: usize| 0.01 * polygon.size() * (7.0 * index as f64).sin();
+        let vertices = even.vertices().iter().enumerate();
+        let vertices = vertices.map(|(index, it)| *it + shift(index) * DVec3::new(1.0, 0.5, 0.0));
+        let weights = polygon.weights().map(<[f64]>::to_vec);
+        let polygon = FloatPolygon::new(4, vertices.collect(), weights, false).expect("a polygon");
         let (outcome, curves) = Runner::of(polygon.clone()).done("make-symmetric", &[]);
         let symmetric = &curves[0].polygon;
         assert_eq!(symmetric.vertices().len(), polygon.vertices().len());
@@ -113,6 +119,18 @@ fn a_curve_on_one_side_is_joined_to_its_image() {
         assert!(start.distance(outer) <= 2e-4 * size, "{start} {outer}");
         assert!(finish.distance(MIRROR.point(outer)) <= 2e-4 * size);
     }
+}
+
+#[test]
+fn a_curve_that_hardly_crosses_the_axis_is_no_mean_of_halves() {
+    let vertex = |index: usize| (10.0 * index as f64 - 15.0, (index * index) as f64);
+    let vertices: Vec<(f64, f64)> = (0..12).map(vertex).collect();
+    let polygon = FloatPolygon::planar(3, &vertices).expect("a polygon");
+    let outcome = Runner::of(polygon).run("make-symmetric", &[]);
+    let outcome = outcome.expect("an outcome");
+    assert!(!outcome.reached);
+    let warning = &outcome.warnings[0];
+    assert!(warning.contains("its halves differ much"), "{warning}");
 }
 
 #[test]

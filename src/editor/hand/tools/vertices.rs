@@ -294,7 +294,11 @@ impl Tool for NewVertexTool {
         };
         let mut effects = self.begin(&adding, vertex);
         match gesture {
-            Gesture::Click(_) => effects.push(Effect::Commit),
+            Gesture::Click(_) => {
+                effects.push(Effect::Commit);
+                let same = adding.same.as_ref();
+                effects.extend(same.map(|it| Effect::Say(it.told(context.document.unit()))));
+            }
             _ => {
                 let pressed = adding.same.as_ref().map(|_| context.model(place));
                 self.dragged = Some(Adding { pressed, ..adding });
@@ -335,9 +339,7 @@ impl Tool for NewVertexTool {
             (NewVertex::IntoLeg, None) if !context.settings.vertices_stay => {
                 match self.told(context) {
                     Some(told) => return format!("Click or drag to insert a vertex. {told}"),
-                    None => {
-                        "Click on a leg to insert a vertex: the curve keeps its shape; Esc ends"
-                    }
+                    None => "Click on a leg to insert a vertex: the curve hardly moves; Esc ends",
                 }
             }
             (NewVertex::IntoLeg, None) => {
