@@ -60,8 +60,8 @@ const WITHIN: f64 = 1e-4;
 /// The share of the tolerance that cutting the curve in half may take.
 const OF_CUT: f64 = 0.1;
 
-/// The share that merging the half with its image may take, before the mean of both.
-const OF_MERGE: f64 = 0.5;
+/// The shares that merging the half with its image may take, before the mean of both: each search finds another curve.
+const OF_MERGE: [f64; 3] = [0.5, 0.2, 1.0];
 
 /// How often segments are halved at most where the curve is cut.
 const HALVINGS: u32 = 6;
@@ -244,11 +244,24 @@ fn merged(
     progress: &Progress,
 ) -> Result<Whole, OperationError> {
     let progress = progress.limited(MERGING);
-    let merged = merge(parts[0], parts[1], OF_MERGE * tolerance, &progress);
-    let merged = merged.and_then(|merged| {
+    let within = |tolerance: f64| {
+        let merged = merge(parts[0], parts[1], tolerance, &progress)?;
         let symmetric = merged.polygon.symmetrised(mirror)?;
         merged.with_polygon(parts, symmetric, &progress)
-    });
+    };
+    let mut merged = within(OF_MERGE[0] * tolerance);
+    for share in &OF_MERGE[1..] {
+        let reached =
+            matches!(&merged, Ok(merged) if merged.deviation <= (1.0 - OF_CUT) * tolerance);
+        if reached || progress.is_cancelled() {
+            break;
+        }
+        merged = match (merged, within(share * tolerance)) {
+            (Ok(merged), Ok(other)) if other.deviation < merged.deviation => Ok(other),
+            (Err(_), other) => other,
+            (merged, _) => merged,
+        };
+    }
     let merged = merged.map_err(|error| merge_error(error, &progress))?;
     Ok(Whole {
         joint: [merged.tracks[0].at(parts[0].segments() as f64); 2],

@@ -86,18 +86,20 @@ fn each_half_is_completed_by_its_image() {
         };
         assert!(bound <= 1e-4 * size, "{bound}");
         // Every point of the half lies near the whole.
-        let steps = 0..=200;
-        let half = steps.map(|step| 0.005 * f64::from(step) * polygon.segments() as f64);
+        let steps = 0..=60;
+        let half = steps.map(|step| f64::from(step) / 60.0 * polygon.segments() as f64);
+        let samples = 60_000;
+        let spacing = symmetric.arc_length(1e-3) / f64::from(samples);
         for u in half {
             let at = polygon.point(u);
             if (at.x < 0.0) != (end == End::Start) {
                 continue;
             }
-            let places = 0..=4000;
-            let places = places.map(|step| f64::from(step) / 4000.0 * symmetric.segments() as f64);
+            let share = |step: i32| f64::from(step) / f64::from(samples);
+            let places = (0..=samples).map(|step| share(step) * symmetric.segments() as f64);
             let off = places.map(|place| symmetric.point(place).distance(at));
             let off = off.fold(f64::INFINITY, f64::min);
-            assert!(off <= bound + 1e-6 * size, "{off} beyond {bound} at {at}");
+            assert!(off <= bound.hypot(spacing), "{off} beyond {bound} at {at}");
         }
     }
 }
