@@ -301,7 +301,7 @@ fn corner(id: CurveId, angle: f64) -> Outcome {
     Outcome {
         requirements: vec![(id, vec![Requirement::Failed { left: None }])],
         remarks: vec![format!(
-            "The curve meets its image at a corner of {angle}°: turn its end perpendicular to the axis, or keep Nearest"
+            "The curve meets its image at a corner of {angle}°: turn its end perpendicular to the axis first"
         )],
         ..Outcome::unchanged(Deviation::Unmeasured)
     }
