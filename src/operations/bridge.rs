@@ -91,9 +91,14 @@ pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String
         return Some(format!("A bridge is {length} long, the gap {gap}"));
     }
     let sizes = parts.map(|part| BezierPolygon::from_float(part).size());
-    if found.gap > SHORT * sizes[0].max(sizes[1]) {
-        return None;
+    match found.gap > SHORT * sizes[0].max(sizes[1]) {
+        true => None,
+        false => spike(found, parts),
     }
+}
+
+/// Say that a bridge is bent so sharply that it is no use, however long the gap.
+pub(super) fn spike(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
     let (sharpest, needed) = bends(found, parts);
     (sharpest > SHARPEST * needed).then(|| {
         let radius = significant(1.0 / sharpest, 3);

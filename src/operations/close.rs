@@ -66,7 +66,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         let failed = Requirement::Failed { left: None };
         outcome.requirements = vec![(id, vec![failed])];
         outcome
-            .remarks
+            .warnings
             .push(format!("{fault}: move the ends apart"));
     }
     outcome.annotations = annotations(&found);

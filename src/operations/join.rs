@@ -478,7 +478,7 @@ impl Joining<'_> {
             let failed = Requirement::Failed { left: None };
             outcome.requirements = vec![(self.parts[0].0, vec![failed])];
             outcome
-                .remarks
+                .warnings
                 .push(format!("{fault}: Merge or Chain, or move the ends apart"));
         }
         Ok((outcome, found.halvings == 0 && fault.is_none()))

@@ -220,7 +220,7 @@ fn completed(
         Figure::word("method", "Method", whole.method),
         Figure::count("vertices", "Vertices", count),
     ];
-    outcome.warnings.extend(whole.fault);
+    outcome.warnings.extend(whole.fault.or(whole.knuckle));
     Ok(outcome)
 }
 
@@ -234,6 +234,8 @@ struct Whole {
     off: f64,
     /// Why it is no use.
     fault: Option<String>,
+    /// What the user may not want of it.
+    knuckle: Option<String>,
 }
 
 /// Merge a half with its image.
@@ -251,9 +253,9 @@ fn merged(
     };
     let mut merged = within(OF_MERGE[0] * tolerance);
     for share in &OF_MERGE[1..] {
-        let reached =
+        let is_near =
             matches!(&merged, Ok(merged) if merged.deviation <= (1.0 - OF_CUT) * tolerance);
-        if reached || progress.is_cancelled() {
+        if is_near || progress.is_cancelled() {
             break;
         }
         merged = match (merged, within(share * tolerance)) {
@@ -269,6 +271,7 @@ fn merged(
         method: "merge",
         off: merged.deviation,
         fault: None,
+        knuckle: None,
     })
 }
 
@@ -283,14 +286,16 @@ fn bridged(
         second_moves: false,
     };
     let found = found(join(parts[0], parts[1], &wanted, progress))?;
-    let fault = bridge::fault(&found, parts);
+    let fault = bridge::fault(&found, parts).or_else(|| bridge::spike(&found, parts));
     let symmetric = found.polygon.symmetrised(mirror)?;
     Ok(Whole {
         joint: bridge::joint(&found),
         method: "bridge",
         // Both parts have as many segments, so that the bridge lies in the middle.
         off: found.polygon.deviation(&symmetric)?,
-        fault: fault.map(|fault| format!("{fault}: bring the end nearer to the axis")),
+        knuckle: bridge::knuckle(&found, parts).filter(|_| fault.is_none()),
+        fault: fault
+            .map(|fault| format!("{fault}: bring the end to the axis, perpendicular to it")),
         polygon: symmetric,
     })
 }

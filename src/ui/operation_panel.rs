@@ -10,8 +10,8 @@ use super::feature_comparison::OUTDATED;
 use super::fitted_points::fitted_points_ui;
 use super::number_field::FieldEvent;
 use super::operation_fields::{OperationFields, Refused};
-use super::operation_report::{ReportView, error_ui, failure, summary_ui};
-use super::theme::STEP;
+use super::operation_report::{ReportView, failure, summary_ui, two_lines_ui, warning};
+use super::theme::{STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::document::CurveId;
 use crate::editor::{Editor, OperationInProgress, told};
@@ -155,7 +155,9 @@ impl OperationPanel {
                     ui.multiply_opacity(OUTDATED);
                 }
                 if let Some(text) = refused.or_else(|| failure(in_progress)) {
-                    error_ui(ui, &text);
+                    two_lines_ui(ui, &text, Tokens::of(ui).error);
+                } else if let Some(text) = warning(in_progress) {
+                    two_lines_ui(ui, text, Tokens::of(ui).warning);
                 }
             });
             has_buttons.then(|| buttons_ui(ui, in_progress, progress))

@@ -1,7 +1,7 @@
 //! The result of the operation in progress: report, figures, and features before and after.
 
 use eframe::egui::text::LayoutJob;
-use eframe::egui::{Label, TextStyle, Ui};
+use eframe::egui::{Color32, Label, TextStyle, Ui};
 use lucide_icons::Icon;
 
 use super::atlas::Values;
@@ -130,12 +130,24 @@ fn others_ui(ui: &mut Ui, in_progress: &OperationInProgress, run: &Run) {
 
 /// Say why the values have no result, or only a partial one.
 pub fn failure(in_progress: &OperationInProgress) -> Option<String> {
-    match in_progress.run()? {
-        Err(error) => Some(sentence(&error.to_string())),
-        Ok(run) if run.report.reached => None,
-        Ok(run) if run.report.useful => Some("Not reached: this is the best found".to_owned()),
-        Ok(_) => Some("Not reached: nothing will change".to_owned()),
-    }
+    let report = match in_progress.run()? {
+        Err(error) => return Some(sentence(&error.to_string())),
+        Ok(run) if run.report.reached => return None,
+        Ok(run) => &run.report,
+    };
+    let otherwise = match report.useful {
+        true => "this is the best found",
+        false => "nothing will change",
+    };
+    let why = report.warnings.iter().chain(&report.remarks).next();
+    let why = why.map_or(otherwise, String::as_str);
+    Some(format!("Not reached: {why}"))
+}
+
+/// The first thing that the user may not want in the result.
+pub fn warning(in_progress: &OperationInProgress) -> Option<&str> {
+    let run = in_progress.run()?.as_ref().ok()?;
+    run.report.warnings.first().map(String::as_str)
 }
 
 /// Show the summary, always of as many rows: how far the curve moves and its vertices, or whether it has
@@ -238,11 +250,11 @@ fn joined<T>(all: &[T], text: impl Fn(&T) -> String) -> String {
     all.iter().map(text).collect::<Vec<_>>().join(", ")
 }
 
-/// Show an error on two lines; a tooltip shows a longer one.
-pub fn error_ui(ui: &mut Ui, text: &str) {
+/// Show an error or a warning on two lines; a tooltip shows a longer one.
+pub fn two_lines_ui(ui: &mut Ui, text: &str, colour: Color32) {
     let font = TextStyle::Body.resolve(ui.style());
     let width = ui.available_width();
-    let mut job = LayoutJob::simple(text.to_owned(), font, Tokens::of(ui).error, width);
+    let mut job = LayoutJob::simple(text.to_owned(), font, colour, width);
     job.wrap.max_rows = 2;
     ui.add(Label::new(job));
 }

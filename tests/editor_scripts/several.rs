@@ -456,3 +456,41 @@ fn the_active_curve_is_dragged_before_others_that_run_along_it() {
         script.command(Command::Undo);
     }
 }
+
+#[test]
+fn no_leg_of_another_curve_is_dragged_where_the_active_one_runs() {
+    let wave = |count: usize| {
+        let vertices = (0..count).map(|index| {
+            let x = 10.0 * index as f64 / (count - 1) as f64;
+            DVec3::new(x, (0.9 * x).sin(), 0.0)
+        });
+        FloatPolygon::new(3, vertices.collect(), None, false).expect("a polygon")
+    };
+    let [few, many] = [wave(12), wave(2000)];
+    let curves = [("few", few.clone()), ("many", many.clone())];
+    let curves = curves.map(|(name, polygon)| Curve::new(name, polygon));
+    let mut editor = Editor::with_document(Document::from_curves(curves));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
+    let ids: Vec<_> = editor.document().ids().collect();
+    let viewport = *editor.view().viewport();
+    let seen = |point: DVec3| viewport.to_screen(point.truncate());
+    // On a leg, some 3.5 points beside the other curve.
+    let place = (0..1000).map(|step| few.vertex(5).lerp(few.vertex(6), f64::from(step) / 2000.0));
+    let off = |at: DVec3| {
+        let samples = (0..=20_000).map(|it| f64::from(it) / 20_000.0 * many.segments() as f64);
+        let distances = samples.map(|u| seen(many.point(u)).distance(seen(at)));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let place = place.step_by(10).find(|at| (3.2..3.9).contains(&off(*at)));
+    let at = seen(place.expect("a place on the leg"));
+    let mut script = Script { editor };
+    for (active, is_other) in [(ids[1], true), (ids[0], false)] {
+        script.editor.activate(active);
+        script.editor.refresh();
+        script.drag(at, at + DVec2::new(2.0, 25.0));
+        assert_eq!(script.editor.active(), Some(active));
+        let of_few = script.editor.document().curve(ids[0]).expect("a curve");
+        assert_eq!(of_few.polygon == few, is_other);
+        script.command(Command::Undo);
+    }
+}

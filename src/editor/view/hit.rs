@@ -77,7 +77,7 @@ impl<'a> Sight<'a> {
     }
 
     /// Whether the active curve runs under a place, and can be changed.
-    fn is_active_under(&self, place: DVec2) -> bool {
+    pub(in crate::editor) fn is_active_under(&self, place: DVec2) -> bool {
         let id = self.shown_active();
         let id = id.filter(|_| self.shown.layers.shows(Layer::Curve));
         id.is_some_and(|id| {

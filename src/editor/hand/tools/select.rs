@@ -422,9 +422,12 @@ fn point_of_curve(place: DVec2, context: &Context) -> Option<CurveHit> {
     (curve.polygon.degree() > 1).then_some(hit)
 }
 
-/// The leg that a press takes, if it is clearly nearer than the curve.
+/// The leg that a press takes, if it is clearly nearer than the curve; none of another curve where the active one runs.
 fn leg_before(place: DVec2, curve: Option<CurveHit>, context: &Context) -> Option<LegHit> {
     let leg = context.hits.leg(place, LEG_REACH)?;
+    if context.selection.active() != Some(leg.curve) && context.hits.is_active_under(place) {
+        return None;
+    }
     let at = context.model(place);
     let clearly = CLEARLY * context.viewport.pixel();
     let is_nearer = |curve: CurveHit| leg.point.distance(at) + clearly < curve.point.distance(at);
