@@ -62,15 +62,15 @@ enum Method {
     Chain,
 }
 
-const TOLERANCE: Parameter = Parameter {
+pub(super) const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
     label: "Merge within",
-    help: "How far a merged curve may be from both curves",
+    help: "How far a merged curve may be from what it is made of",
     kind: Kind::optional_number(POSITIVE, |_| "1e-4 of the size"),
 };
 
 /// The tolerance of a merged curve, by the size of both.
-const WITHIN: f64 = 1e-4;
+pub(super) const WITHIN: f64 = 1e-4;
 
 /// How far a merged curve may be off where no tolerance is given, by the size: a match would move the second curve more.
 const ALSO_WITHIN: f64 = 1e-3;
@@ -115,7 +115,7 @@ const FAR: f64 = 0.01;
 const FARTHER: f64 = 2.0;
 
 /// The time that a merged curve is looked for.
-const MERGING: Duration = Duration::from_secs(10);
+pub(super) const MERGING: Duration = Duration::from_secs(10);
 
 /// What is left of a match, in units of the curve's size.
 const MET: f64 = 1e-9;

@@ -1,19 +1,17 @@
 //! A curve that becomes its own mirror image.
 
-use std::time::Duration;
-
 use super::bridge::{self, found};
 use super::cutting::without_target;
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::inputs::Inputs;
-use super::join::merge_error;
+use super::join::{MERGING, TOLERANCE, WITHIN, merge_error};
 use super::lists::given;
 use super::mirror::{FROM, PLANE, TO, check_free, plane_or_line};
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
-use super::parameter::{Choice, Kind, POSITIVE, Parameter};
+use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
 use crate::document::{CurveId, ParameterSpan};
 use crate::geometry::approximation::merging::{Joint, MergeError, merge};
@@ -47,16 +45,6 @@ const KEEP: Parameter = Parameter {
     },
 };
 
-const TOLERANCE: Parameter = Parameter {
-    name: "tolerance",
-    label: "Within",
-    help: "How far the curve may be from the half that is kept",
-    kind: Kind::optional_number(POSITIVE, |_| "1e-4 of the size"),
-};
-
-/// The tolerance by the size of the curve.
-const WITHIN: f64 = 1e-4;
-
 /// The share of the tolerance that cutting the curve in half may take.
 const OF_CUT: f64 = 0.1;
 
@@ -71,9 +59,6 @@ const SAMPLES: usize = 32;
 
 /// A curve that crosses the plane by less than this share of its size only touches it.
 const TOUCHES: f64 = 1e-9;
-
-/// The time that a merged curve is looked for.
-const MERGING: Duration = Duration::from_secs(10);
 
 /// A curve that moves by more than this share of its size was hardly symmetric.
 const FAR: f64 = 0.1;
@@ -196,6 +181,10 @@ fn completed(
     };
     let symmetric = whole.polygon;
     let deviation = whole.off + cut;
+    let deviation_is = match whole.bounded {
+        true => Deviation::AtMost(deviation),
+        false => Deviation::Measured(deviation),
+    };
     let spans = vec![ParameterSpan {
         old: span,
         new: match half {
@@ -205,7 +194,7 @@ fn completed(
     }];
     let middle = symmetric.point(0.5 * symmetric.segments() as f64);
     let count = symmetric.vertices().len();
-    let mut outcome = Outcome::renumbered(input, symmetric, spans, Deviation::AtMost(deviation))?;
+    let mut outcome = Outcome::renumbered(input, symmetric, spans, deviation_is)?;
     let cut_off = without_target(input.document(), id, curve, half.inner());
     outcome.edits.extend(cut_off);
     outcome.annotations.push(Annotation::Point(middle));
@@ -230,8 +219,10 @@ struct Whole {
     method: &'static str,
     /// Where the first of both ends on it, and where the second begins.
     joint: [f64; 2],
-    /// How far it is from both at most.
+    /// How far it is from both.
     off: f64,
+    /// Whether that is a bound.
+    bounded: bool,
     /// Why it is no use.
     fault: Option<String>,
     /// What the user may not want of it.
@@ -270,6 +261,7 @@ fn merged(
         polygon: merged.polygon,
         method: "merge",
         off: merged.deviation,
+        bounded: merged.bounded,
         fault: None,
         knuckle: None,
     })
@@ -293,6 +285,7 @@ fn bridged(
         method: "bridge",
         // Both parts have as many segments, so that the bridge lies in the middle.
         off: found.polygon.deviation(&symmetric)?,
+        bounded: true,
         knuckle: bridge::knuckle(&found, parts).filter(|_| fault.is_none()),
         fault: fault
             .map(|fault| format!("{fault}: bring the end to the axis, perpendicular to it")),

@@ -2,13 +2,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use batten::document::{CurveId, Document, Edit, EndMatch, MatchPlace};
+use batten::document::{CurveId, Document, Edit};
 use batten::editor::{Command, Key, ToolKind, Transformation};
-use batten::geometry::{Continuity, End};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
-use super::selecting_several::{four, hide, lock, on};
+use super::selecting_several::{four, hide, lock, match_starts, on};
 
 /// The points that tell where an item is: vertices, or the place of a reference.
 fn places(document: &Document, id: CurveId) -> Vec<DVec3> {
@@ -197,18 +196,7 @@ fn what_cannot_move_as_a_whole_stays_and_is_named() {
 #[test]
 fn matched_curves_follow_a_move_and_keep_their_shape_if_they_go_along() {
     let (mut script, [arc, other, short, _]) = four();
-    let matched = EndMatch {
-        curve: short,
-        end: End::Start,
-        source: other,
-        place: MatchPlace::End(End::Start),
-        continuity: Continuity::G1,
-        reversed: true,
-    };
-    script
-        .editor
-        .apply("match", vec![Edit::SetMatch(matched)])
-        .expect("a match");
+    match_starts(&mut script, short, other);
     let meets = |script: &Script| {
         let document = script.editor.document();
         document.matches().all(|matched| document.meets(matched))

@@ -1,14 +1,14 @@
 //! Operations on several curves and references, on each by itself.
 
-use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace, Reference};
+use batten::document::{Curve, CurveId, Document, Edit, Reference};
 use batten::editor::{Command, Key};
 use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
-use batten::geometry::{Continuity, End, FloatPolygon};
+use batten::geometry::{End, FloatPolygon};
 use batten::operations::Value;
 use glam::DVec3;
 
 use super::script::Script;
-use super::selecting_several::{four, hide, lock};
+use super::selecting_several::{four, hide, lock, match_starts};
 
 fn polygon(script: &Script, id: CurveId) -> FloatPolygon {
     let curve = script.editor.document().curve(id);
@@ -94,18 +94,7 @@ fn what_an_operation_cannot_run_on_is_named() {
 #[test]
 fn matched_curves_are_mirrored_together() {
     let (mut script, [_, other, short, _]) = four();
-    let matched = EndMatch {
-        curve: short,
-        end: End::Start,
-        source: other,
-        place: MatchPlace::End(End::Start),
-        continuity: Continuity::G1,
-        reversed: true,
-    };
-    script
-        .editor
-        .apply("match", vec![Edit::SetMatch(matched)])
-        .expect("a match");
+    match_starts(&mut script, short, other);
     let before = script.editor.document().clone();
     let image = |id: CurveId| -> Vec<DVec3> {
         let vertices = before.curve(id).expect("a curve").polygon.vertices().iter();

@@ -30,6 +30,20 @@ pub fn four() -> (Script, [CurveId; 4]) {
     (script, [arc, other, ids[2], ids[3]])
 }
 
+/// Match the start of one curve to that of another.
+pub fn match_starts(script: &mut Script, curve: CurveId, source: CurveId) {
+    let matched = EndMatch {
+        curve,
+        end: End::Start,
+        source,
+        place: MatchPlace::End(End::Start),
+        continuity: Continuity::G1,
+        reversed: true,
+    };
+    let matched = vec![Edit::SetMatch(matched)];
+    script.editor.apply("match", matched).expect("a match");
+}
+
 fn selected(script: &Script) -> Vec<CurveId> {
     let selection = script.editor.hand().selection();
     let document = script.editor.document();
@@ -299,18 +313,7 @@ fn copies_hold_all_that_is_selected() {
 #[test]
 fn the_matches_that_a_deletion_of_several_dissolves_are_told() {
     let (mut script, [arc, other, short, _]) = four();
-    let matched = EndMatch {
-        curve: short,
-        end: End::Start,
-        source: other,
-        place: MatchPlace::End(End::Start),
-        continuity: Continuity::G1,
-        reversed: true,
-    };
-    script
-        .editor
-        .apply("match", vec![Edit::SetMatch(matched)])
-        .expect("a match");
+    match_starts(&mut script, short, other);
     script.editor.hand_mut().select_items([arc, other]);
     script.command(Command::DeleteCurve);
     assert!(

@@ -403,21 +403,29 @@ fn select_all_says_that_the_active_curve_is_hidden_and_takes_no_other() {
     assert!(script.message().contains("hidden"), "{}", script.message());
 }
 
+/// A wave through so many vertices.
+fn wave(count: usize) -> FloatPolygon {
+    let vertices = (0..count).map(|index| {
+        let x = 10.0 * index as f64 / (count - 1) as f64;
+        DVec3::new(x, (0.9 * x).sin(), 0.0)
+    });
+    FloatPolygon::new(3, vertices.collect(), None, false).expect("a polygon")
+}
+
+/// Two curves that run along each other.
+fn along(few: &FloatPolygon, many: &FloatPolygon) -> (Editor, Vec<CurveId>) {
+    let curves = [("few", few), ("many", many)];
+    let curves = curves.map(|(name, polygon)| Curve::new(name, polygon.clone()));
+    let mut editor = Editor::with_document(Document::from_curves(curves));
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
+    let ids = editor.document().ids().collect();
+    (editor, ids)
+}
+
 #[test]
 fn the_active_curve_is_dragged_before_others_that_run_along_it() {
     // Many vertices, which are not drawn, over few of another curve.
-    let wave = |count: usize| {
-        let vertices = (0..count).map(|index| {
-            let x = 10.0 * index as f64 / (count - 1) as f64;
-            DVec3::new(x, (0.9 * x).sin(), 0.0)
-        });
-        FloatPolygon::new(3, vertices.collect(), None, false).expect("a polygon")
-    };
-    let curves = [("few", wave(40)), ("many", wave(2000))];
-    let curves = curves.map(|(name, polygon)| Curve::new(name, polygon));
-    let mut editor = Editor::with_document(Document::from_curves(curves));
-    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
-    let ids: Vec<_> = editor.document().ids().collect();
+    let (editor, ids) = along(&wave(40), &wave(2000));
     let few = editor
         .document()
         .curve(ids[0])
@@ -459,19 +467,8 @@ fn the_active_curve_is_dragged_before_others_that_run_along_it() {
 
 #[test]
 fn no_leg_of_another_curve_is_dragged_where_the_active_one_runs() {
-    let wave = |count: usize| {
-        let vertices = (0..count).map(|index| {
-            let x = 10.0 * index as f64 / (count - 1) as f64;
-            DVec3::new(x, (0.9 * x).sin(), 0.0)
-        });
-        FloatPolygon::new(3, vertices.collect(), None, false).expect("a polygon")
-    };
     let [few, many] = [wave(12), wave(2000)];
-    let curves = [("few", few.clone()), ("many", many.clone())];
-    let curves = curves.map(|(name, polygon)| Curve::new(name, polygon));
-    let mut editor = Editor::with_document(Document::from_curves(curves));
-    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
-    let ids: Vec<_> = editor.document().ids().collect();
+    let (editor, ids) = along(&few, &many);
     let viewport = *editor.view().viewport();
     let seen = |point: DVec3| viewport.to_screen(point.truncate());
     // On a leg, some 3.5 points beside the other curve.

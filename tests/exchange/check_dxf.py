@@ -20,6 +20,7 @@ import sys
 
 import ezdxf
 import numpy as np
+from float_curve import curve_points, in_space
 from scipy.interpolate import BSpline
 
 UNITS = {None: 0, "in": 1, "mm": 4, "cm": 5, "m": 6}  # as $INSUNITS counts them
@@ -27,24 +28,6 @@ SAMPLES = 257
 TOLERANCE = 1e-11  # of the curve's size
 HIGHEST_EZDXF_DEGREE = 10  # ezdxf's compiled evaluation stops here
 POLYGONS = {" float polygon": "float", " closed polygon": "clamped"}
-
-
-def in_space(points):
-    points = np.asarray(points, dtype=float)
-    return np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
-
-
-def float_curve_points(curve):
-    """Evaluate the curve from its float polygon: nothing of the clamped one is used."""
-    degree = curve["degree"]
-    vertices = in_space(curve["float"])
-    weights = np.asarray(curve["weights"] or np.ones(len(vertices)), dtype=float)
-    homogeneous = np.column_stack([vertices * weights[:, None], weights])
-    if curve["periodic"]:
-        homogeneous = np.concatenate([homogeneous, homogeneous[:degree]])
-    knots = np.arange(len(homogeneous) + degree + 1, dtype=float) - degree
-    values = BSpline(knots, homogeneous, degree)(np.linspace(*curve["domain"], SAMPLES))
-    return values[:, :3] / values[:, 3:]
 
 
 def ezdxf_points(spline, last):
@@ -82,7 +65,7 @@ def spline_problems(spline, curve):
     evaluations = {"scipy": scipy_points}
     if degree <= HIGHEST_EZDXF_DEGREE:
         evaluations["ezdxf"] = ezdxf_points
-    expected = float_curve_points(curve)
+    expected = curve_points(curve, SAMPLES)
     size = np.ptp(in_space(curve["float"]), axis=0).max()
     for name, points in evaluations.items():
         error = np.abs(points(spline, last) - expected).max() / size

@@ -17,6 +17,7 @@ import sys
 
 import numpy as np
 import rhino3dm
+from float_curve import curve_points, in_space
 from OCP.BRep import BRep_Builder
 from OCP.BRepAdaptor import BRepAdaptor_Curve
 from OCP.BRepTools import BRepTools
@@ -34,24 +35,6 @@ BACK = 1e-12  # of the size, for curves read back from clamped knots
 SAMPLES = 201
 HIGHEST_EVALUATED = 20  # OpenCascade's own evaluation loses digits above
 MILLIMETRES = {None: 1.0, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
-
-
-def in_space(points):
-    points = np.asarray(points, dtype=float)
-    return np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
-
-
-def curve_points(curve, samples=SAMPLES):
-    """Evaluate a curve from its float polygon."""
-    degree = curve["degree"]
-    vertices = in_space(curve["float"])
-    weights = np.asarray(curve["weights"] or np.ones(len(vertices)), dtype=float)
-    homogeneous = np.column_stack([vertices * weights[:, None], weights])
-    if curve["periodic"]:
-        homogeneous = np.concatenate([homogeneous, homogeneous[:degree]])
-    knots = np.arange(len(homogeneous) + degree + 1, dtype=float) - degree
-    values = BSpline(knots, homogeneous, degree)(np.linspace(*curve["domain"], samples))
-    return values[:, :3] / values[:, 3:]
 
 
 def edges(shape):
@@ -128,7 +111,7 @@ def problems(extension, path, inspected):
         yield f"{len(found)} curves of {len(curves)}"
         return
     for number, (points, curve) in enumerate(zip(found, curves), start=1):
-        expected = factor * curve_points(curve)
+        expected = factor * curve_points(curve, SAMPLES)
         size = np.ptp(expected, axis=0).max()
         error = np.abs(points - expected).max() / size
         if not error <= TOLERANCE:
@@ -163,8 +146,8 @@ def problems_back(batten, path, inspected, exact):
             continue
         # BREP is always in millimetres.
         factor = MILLIMETRES[inspected["unit"]] if path.suffix == ".brep" else 1.0
-        expected = factor * curve_points(given)
-        error = np.abs(curve_points(curve) - expected).max() / np.ptp(expected, axis=0).max()
+        expected = factor * curve_points(given, SAMPLES)
+        error = np.abs(curve_points(curve, SAMPLES) - expected).max() / np.ptp(expected, axis=0).max()
         if not error <= BACK:
             yield f"curve {number} is off by {error:.2e} of its size when read back"
 

@@ -15,8 +15,8 @@ import pathlib
 import sys
 
 import numpy as np
-from check_kernels import in_space, run
-from scipy.interpolate import BSpline
+from check_kernels import run
+from float_curve import evaluated, in_space
 
 CURVES = 60
 POINTS = 101
@@ -25,24 +25,6 @@ CHORD = 1e-3  # of the size
 SAMPLES = 4001
 STARTS = 3
 STEPS = 8
-
-
-def evaluate(curve):
-    """Return the curve as a function, by its float polygon."""
-    degree = curve["degree"]
-    vertices = in_space(curve["float"])
-    weights = np.asarray(curve["weights"] or np.ones(len(vertices)), dtype=float)
-    homogeneous = np.column_stack([vertices * weights[:, None], weights])
-    if curve["periodic"]:
-        homogeneous = np.concatenate([homogeneous, homogeneous[:degree]])
-    knots = np.arange(len(homogeneous) + degree + 1, dtype=float) - degree
-    spline = BSpline(knots, homogeneous, degree)
-
-    def point(u):
-        values = spline(u)
-        return values[..., :3] / values[..., 3:]
-
-    return point
 
 
 def table(path):
@@ -88,7 +70,7 @@ def from_polyline(places, corners):
 
 
 def problems(curve, found, chord):
-    point = evaluate(curve)
+    point = evaluated(curve)
     us = np.linspace(*curve["domain"], SAMPLES)
     points = point(us)
     size = np.ptp(points, axis=0).max()

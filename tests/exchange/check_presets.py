@@ -20,8 +20,9 @@ import xml.etree.ElementTree as ElementTree
 import ezdxf
 import inkex
 import numpy as np
-from check_kernels import by_opencascade, by_opennurbs, curve_points, in_space
+from check_kernels import by_opencascade, by_opennurbs
 from check_points import from_polyline
+from float_curve import curve_points, in_space
 from scipy.interpolate import BSpline
 
 EXACT = 1e-11  # of the size
@@ -169,7 +170,7 @@ def problems(batten, path, preset, read, most, inspected):
     for (degree, points), given in zip(found, expected):
         if degree is not None and degree > (most or given["degree"]):
             yield f"“{given['name']}” has degree {degree}"
-        exact = curve_points(given)
+        exact = curve_points(given, SAMPLES)
         size = np.ptp(exact, axis=0).max()
         off = told_of(lines, given["name"], r"off by at most ([-+.0-9e]+)")
         off = off or told_of(lines, given["name"], r"up to ([-+.0-9e]+) off")

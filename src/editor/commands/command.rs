@@ -48,7 +48,7 @@ pub enum Command {
     ToggleLocked,
     /// Hide what is not selected, or show it again.
     Isolate,
-    /// Fit the selection, or everything.
+    /// Fit the selected vertices, or the selected curves.
     Fit,
     /// Fit everything.
     FitAll,

@@ -62,6 +62,9 @@ impl<'a> Sight<'a> {
             return None;
         }
         let mut found: Vec<(f64, VertexId)> = self.vertices_within(place, REACH).collect();
+        if found.is_empty() {
+            return None;
+        }
         let is_other = |id: &VertexId| self.active() != Some(id.0);
         // The active curve's win, of these the nearest, of equals the one drawn on top.
         found.sort_by(|(a, one), (b, other)| {
@@ -70,7 +73,7 @@ impl<'a> Sight<'a> {
         });
         let has_own = found.first().is_some_and(|(_, id)| !is_other(id));
         let behind_curve = usize::from(!has_own && self.is_active_under(place));
-        let chosen = self.shown.cycle % (found.len() + behind_curve).max(1);
+        let chosen = self.shown.cycle % (found.len() + behind_curve);
         found
             .get(chosen.checked_sub(behind_curve)?)
             .map(|(_, id)| *id)

@@ -80,7 +80,7 @@ pub struct Merged {
 }
 
 impl Merged {
-    /// The same with another polygon near it, measured anew against both curves.
+    /// The same with another polygon near it, measured and counted anew.
     ///
     /// # Errors
     /// [`MergeError::Cancelled`].
@@ -90,7 +90,8 @@ impl Merged {
         polygon: FloatPolygon,
         progress: &Progress,
     ) -> Result<Self, MergeError> {
-        let merged = measured(parts, polygon, self.extrema, progress);
+        let [extrema, _] = counts_of([&polygon], progress)?;
+        let merged = measured(parts, polygon, [self.extrema[0], extrema], progress);
         merged.map_err(|_| MergeError::Cancelled)
     }
 }

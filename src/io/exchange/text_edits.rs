@@ -12,8 +12,25 @@ impl TextEdits {
         self.0.push((part, by.into()));
     }
 
+    /// Make the replacements in the text of a file, which may have bytes before it.
+    ///
+    /// # Errors
+    /// The reason, if parts overlap or are no parts of the text.
+    pub(super) fn written(
+        self,
+        bytes: &[u8],
+        text: &str,
+        before: usize,
+    ) -> Result<Vec<u8>, String> {
+        let edited = self.applied(text);
+        let edited = edited.ok_or("two changes meet in one place of the file")?;
+        let mut written = bytes.get(..before).unwrap_or_default().to_vec();
+        written.extend(edited.into_bytes());
+        Ok(written)
+    }
+
     /// Make the replacements; `None` if parts overlap or are no parts of the text.
-    pub(super) fn applied(mut self, text: &str) -> Option<String> {
+    fn applied(mut self, text: &str) -> Option<String> {
         self.0.sort_by_key(|(part, _)| (part.start, part.end));
         let mut edited = String::with_capacity(text.len());
         let mut at = 0;

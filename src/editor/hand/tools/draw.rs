@@ -244,7 +244,7 @@ impl Tool for DrawTool {
     fn undo_label(&self) -> Option<&'static str> {
         match (&self.points[..], &self.discarded[..]) {
             ([], []) => None,
-            ([], _) => Some("Esc"),
+            ([], _) => Some("cancelled drawing"),
             _ => Some("last point"),
         }
     }

@@ -39,11 +39,7 @@ pub(super) fn rewritten(
         }
     }
     add(text, &document, changes, &mut edits)?;
-    let edited = edits.applied(text);
-    let edited = edited.ok_or("two changes meet in one place of the file")?;
-    let mut written = bytes.get(..before).unwrap_or_default().to_vec();
-    written.extend(edited.into_bytes());
-    Ok(written)
+    edits.written(bytes, text, before)
 }
 
 /// Put contours in the place of one. Returns whether the points keep their attributes.

@@ -70,11 +70,7 @@ pub(super) fn rewritten(
         }
     }
     rewriting.add()?;
-    let edited = rewriting.edits.applied(text);
-    let edited = edited.ok_or("two changes meet in one place of the file")?;
-    let mut written = bytes.get(..before).unwrap_or_default().to_vec();
-    written.extend(edited.into_bytes());
-    Ok(written)
+    rewriting.edits.written(bytes, text, before)
 }
 
 struct Rewriting<'r, 'd> {
