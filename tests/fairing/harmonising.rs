@@ -544,3 +544,41 @@ fn a_faint_inflection_at_an_end_goes_with_a_small_move() {
     // Its vertices stay where a hand can drag them.
     assert!(largest_move(&polygon, &found.polygon) < polygon.size());
 }
+
+#[test]
+fn harmonising_does_not_fold_the_polygon() {
+    // The float polygon of an S whose curvature falls a little at both ends.
+    const HALF: [(f64, f64); 5] = [
+        (12.14, 8.06),
+        (42.53, 17.94),
+        (74.01, 4.0),
+        (86.18, -26.24),
+        (86.67, -55.47),
+    ];
+    const LEG: f64 = 29.0;
+    const SIZE: f64 = 141.0;
+    let image = HALF.iter().rev().map(|(x, y)| (-x, -y));
+    let vertices: Vec<(f64, f64)> = image.chain(HALF).collect();
+    let polygon = FloatPolygon::planar(5, &vertices).expect("a polygon");
+    for held in [Held::Free, Held::Position, Held::Direction] {
+        let wish = Harmony {
+            stretch: None,
+            ends: [held; 2],
+            locked: &[],
+            extrema: None,
+            inflections: None,
+            torsion_extrema: None,
+            largest_deviation: None,
+        };
+        let found = harmonise(&polygon, &wish, &Progress::default()).expect("a curve");
+        assert!(found.reached, "{held:?}");
+        assert!(
+            found.deviation <= 1e-4 * SIZE,
+            "{held:?}: {}",
+            found.deviation
+        );
+        let pairs = polygon.vertices().iter().zip(found.polygon.vertices());
+        let farthest = pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        assert!(farthest <= 0.25 * LEG, "{held:?}: {farthest}");
+    }
+}

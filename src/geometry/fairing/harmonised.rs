@@ -1,5 +1,8 @@
 //! What harmonising is asked, and what it returns.
 
+use std::f64::consts::PI;
+
+use glam::DVec3;
 use thiserror::Error;
 
 use super::counts::ShapeCounts;
@@ -16,6 +19,12 @@ const LOST: f64 = 3.0;
 
 /// A fitted curve, whose vertices may lie anywhere, must be so many times nearer than the least change of them.
 const REFITTED: f64 = 2.0;
+
+/// A polygon that turns by more than this at a vertex, in radians, folds.
+const FOLD: f64 = 2.0 * PI / 3.0;
+
+/// A curve whose polygon folds must be so many times nearer than one whose polygon does not.
+const FOLDED: f64 = 4.0;
 
 /// Held values of an end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -123,10 +132,17 @@ pub enum HarmonyError {
 }
 
 impl Harmonised {
-    /// Distance from the request: a smaller one is better.
-    pub(super) fn rank(&self) -> (bool, f64) {
-        let price = if self.refitted { REFITTED } else { 1.0 };
-        (!self.reached, price * self.priced(self.deviation))
+    /// Distance from the request, and from the polygon that it was: a smaller one is better. A vertex that is flung away
+    /// is the last resort.
+    pub(super) fn rank(&self, before: &FloatPolygon) -> (bool, bool, f64) {
+        let refitted = if self.refitted { REFITTED } else { 1.0 };
+        let folded = if folds(before, &self.polygon) {
+            FOLDED
+        } else {
+            1.0
+        };
+        let price = refitted * folded * self.priced(self.deviation);
+        (!self.reached, flung(before, &self.polygon).is_some(), price)
     }
 
     /// A length that measures a change, the longer if features are lost.
@@ -152,6 +168,25 @@ impl Harmonised {
 /// How far a vertex moves, if that is farther than the polygon is large: it is no use then, however near the curve is.
 pub fn flung(before: &FloatPolygon, after: &FloatPolygon) -> Option<(usize, f64)> {
     farthest_move(before, after).filter(|(_, distance)| *distance > before.size())
+}
+
+/// Whether a polygon turns back at a vertex where it did not before: nobody takes that for harmonious.
+pub(super) fn folds(before: &FloatPolygon, after: &FloatPolygon) -> bool {
+    let mut pairs = turns(before).into_iter().zip(turns(after));
+    pairs.any(|(before, after)| before <= FOLD && after > FOLD)
+}
+
+/// The angles between legs that follow each other.
+fn turns(polygon: &FloatPolygon) -> Vec<f64> {
+    let vertices = polygon.vertices();
+    let closing = if polygon.is_periodic() { 2 } else { 0 };
+    let around = vertices.iter().chain(vertices.iter().take(closing));
+    let around: Vec<DVec3> = around.copied().collect();
+    let turn = |three: &[DVec3]| match three {
+        [a, b, c] => (*b - *a).angle_between(*c - *b),
+        _ => 0.0,
+    };
+    around.windows(3).map(turn).collect()
 }
 
 /// The vertex that moves farthest, and how far.

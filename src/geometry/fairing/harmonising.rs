@@ -54,7 +54,8 @@ const ORDERS: [usize; 2] = [2, 3];
 /// curvature and ℓ the mean leg (in space with the torsion angles), for falling ε until the
 /// features are those asked for, then for the largest such ε; m = 2 and 3 are tried, and the smaller
 /// move is kept. Rational curves keep their weights. Where that moves a planar curve by more than 1e-4 of its size, or
-/// does not do, a curve with these features is fitted to it, and the nearer one is kept.
+/// does not do, a curve with these features is fitted to it, and the nearer one is kept: one whose polygon folds only if
+/// it is 4 times nearer.
 ///
 /// # Errors
 /// [`HarmonyError`].
@@ -87,17 +88,13 @@ fn chosen(
     mut candidates: Vec<Harmonised>,
     progress: &Progress,
 ) -> Option<Harmonised> {
-    // A polygon with a vertex far away is the last resort.
-    let rank = |it: &Harmonised| {
-        let (misses, price) = it.rank();
-        (misses, flung(polygon, &it.polygon).is_some(), price)
-    };
+    let rank = |it: &Harmonised| it.rank(polygon);
     candidates.sort_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
     let nearest = candidates.first()?.clone();
-    let (_, price) = nearest.rank();
+    let (_, _, price) = rank(&nearest);
     let is_near = |it: &&Harmonised| {
-        let is_tame = flung(polygon, &it.polygon).is_none();
-        it.reached && is_tame && it.rank().1 <= HARDLY_FARTHER * price
+        let (misses, flung, own) = rank(it);
+        !misses && !flung && own <= HARDLY_FARTHER * price
     };
     if candidates.iter().filter(is_near).count() < 2 {
         return Some(nearest);

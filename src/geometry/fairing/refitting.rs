@@ -1,7 +1,7 @@
 //! Fits to a curve that is to be harmonised: nearly the same curve with the features asked for.
 
 use super::counts::counted;
-use super::harmonised::{Harmonised, Harmony, Held, flung};
+use super::harmonised::{Harmonised, Harmony, Held, farthest_move, flung, folds};
 use super::joint_correction::{Disturbance, correct_jointly};
 use super::requirement::{Check, PlaceRequest, Requirement};
 use crate::geometry::distance::MeasuredDeviation;
@@ -89,22 +89,26 @@ pub(super) fn fitted(
     let own = Some(known.request.inflections);
     let mut found: Vec<Harmonised> = Vec::new();
     let mut locked = harmony.locked.to_vec();
-    // Outer vertices hardly act. Those that go far away stay where they are in another try, at little cost.
+    // Outer vertices hardly act. Those that go far away, or fold the polygon, stay where they are in another try, at
+    // little cost.
     for _ in 0..=HELD {
         let tries = [(own, 0.5 * FIT), (None, FIT)].into_iter();
         let tries = tries.filter_map(|(inflections, share)| tried(inflections, &locked, share));
         let new: Vec<Harmonised> = tries.collect();
-        let flung = new.iter().map(|it| flung(polygon, &it.polygon));
-        let flung: Option<Vec<(usize, f64)>> = flung.collect();
+        let is_wild =
+            |it: &Harmonised| flung(polygon, &it.polygon).is_some() || folds(polygon, &it.polygon);
+        let are_wild = !new.is_empty() && new.iter().all(is_wild);
+        let moved = new
+            .iter()
+            .filter_map(|it| farthest_move(polygon, &it.polygon));
+        let moved: Vec<usize> = moved.map(|(vertex, _)| vertex).collect();
         found.extend(new);
-        match flung {
-            Some(flung) if !flung.is_empty() => {
-                locked.extend(flung.iter().map(|(vertex, _)| *vertex));
-                locked.sort_unstable();
-                locked.dedup();
-            }
-            _ => break,
+        if !are_wild {
+            break;
         }
+        locked.extend(moved);
+        locked.sort_unstable();
+        locked.dedup();
     }
     found
 }
