@@ -28,6 +28,9 @@ use crate::geometry::{
 /// How far the curve may move without a wish, by its size.
 const MOST_DEVIATION: f64 = 0.05;
 
+/// More extrema than this are hardly what fairing is for.
+const MANY: usize = 6;
+
 const PROMINENT: Meaning = |_| "prominent ones (automatic)";
 
 const FREE: Choice = Choice::new("free", "Free");
@@ -248,6 +251,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     if found.reached {
         outcome.warnings.extend(far(curve, &found));
         outcome.remarks.extend(remark_on_lost(&found));
+        outcome.remarks.extend(remark_on_many(&found, &harmony));
         let lost = follows(&found.polygon, &progress) == Some(false)
             && follows(&curve.polygon, &progress) == Some(true);
         outcome.remarks.extend(lost.then(|| {
@@ -375,6 +379,16 @@ fn remark_on_lost(found: &Harmonised) -> Option<String> {
     (!lost.is_empty()).then(|| {
         let lost = lost.join(" and ");
         format!("{lost} are left: ask for a number to keep more")
+    })
+}
+
+/// Say that many extrema stand out, and how to keep fewer.
+fn remark_on_many(found: &Harmonised, harmony: &Harmony) -> Option<String> {
+    let left = found.counts.extrema;
+    (harmony.extrema.is_none() && left > MANY).then(|| {
+        format!(
+            "{left} curvature extrema stand out and stay: enter Curvature extrema to keep fewer"
+        )
     })
 }
 
