@@ -204,6 +204,7 @@ impl Editor {
             before: before(),
             others_before: previewed
                 .map_or_else(Vec::new, |it| it.others_before(active, self.document())),
+            unreached: previewed.map_or_else(Vec::new, |it| it.unreached(self.document())),
             proposal: match previewed {
                 Some(_) => None,
                 None => self

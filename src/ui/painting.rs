@@ -179,7 +179,11 @@ impl Brush<'_> {
         };
         let colour = own.gamma_multiply(strength);
         let width = if curve.active { 2.0 } else { 1.5 };
-        self.chain(&curve.curve, Stroke::new(width, colour));
+        let stroke = Stroke::new(width, colour);
+        match curve.unreached {
+            true => self.dashed_chain(&curve.curve, stroke),
+            false => self.chain(&curve.curve, stroke),
+        }
         let tick = Stroke::new(1.5, fade(self.tokens.joints));
         for [point, normal] in &curve.joints {
             if let Some(at) = self.screen.point(*point) {

@@ -223,6 +223,20 @@ impl OperationInProgress {
         changed.map(|(_, curve)| curve.clone()).collect()
     }
 
+    /// The curves of the preview that do not meet the request.
+    pub(in crate::editor) fn unreached(&self, now: &Document) -> Vec<CurveId> {
+        let Some(run) = self.finished().filter(|run| !run.is_reached()) else {
+            return Vec::new();
+        };
+        let before = self.input.document();
+        let changed = now.curves().filter(|(id, curve)| {
+            let old = before.curve(*id);
+            !old.is_some_and(|old| Arc::ptr_eq(old, curve))
+        });
+        let ids = changed.map(|(id, _)| id);
+        ids.filter(|id| !run.reached_items().contains(id)).collect()
+    }
+
     /// The marks of the last run on the canvas.
     pub(in crate::editor) fn marks(&self, viewport: &Viewport) -> Vec<Mark> {
         // Points that are fitted have marks of their own.
@@ -300,17 +314,33 @@ impl Run {
         self.input.item().filter(|_| !self.others.is_empty())
     }
 
+    /// The outcomes of all items that have one.
+    fn outcomes(&self) -> impl Iterator<Item = (Option<CurveId>, &Outcome)> {
+        let others = self.others.iter();
+        let others = others.filter_map(|it| Some((Some(it.item), &it.result.as_ref().ok()?.0)));
+        [(self.item(), &self.outcome)].into_iter().chain(others)
+    }
+
+    /// Whether the results of all items meet the request.
+    fn is_reached(&self) -> bool {
+        self.outcomes().all(|(_, outcome)| outcome.reached)
+    }
+
+    /// The items among several whose results meet the request.
+    fn reached_items(&self) -> Vec<CurveId> {
+        let reached = self.outcomes().filter(|(_, outcome)| outcome.reached);
+        reached.filter_map(|(item, _)| item).collect()
+    }
+
     /// The edits for all items.
     pub(super) fn edits(&self) -> Vec<Edit> {
-        let others = self.others.iter().filter_map(|it| it.result.as_ref().ok());
-        let others = others.flat_map(|(outcome, _)| &outcome.edits);
-        self.outcome.edits.iter().chain(others).cloned().collect()
+        let edits = self.outcomes().flat_map(|(_, outcome)| &outcome.edits);
+        edits.cloned().collect()
     }
 
     /// Whether vertices of any item get other numbers.
     pub(super) fn renumbers(&self) -> bool {
-        let mut others = self.others.iter().filter_map(|it| it.result.as_ref().ok());
-        self.outcome.renumbered || others.any(|(outcome, _)| outcome.renumbered)
+        self.outcomes().any(|(_, outcome)| outcome.renumbered)
     }
 
     /// Whether the user may not want the result of any item.

@@ -38,6 +38,9 @@ impl View {
         view.low -= border;
         view.high += border;
         self.draw_curves(shown, &view, &mut scene.curves);
+        for curve in &mut scene.curves {
+            curve.unreached = curve.id.is_some_and(|id| overlay.unreached.contains(&id));
+        }
         self.draw_ghosts(shown, overlay, &view, &mut scene.ghost);
         scene.proposal.clear();
         if let Some((polygon, changed)) = overlay.proposal.take() {

@@ -26,6 +26,8 @@ pub struct Overlay {
     pub before: Option<Arc<Curve>>,
     /// The other curves that the operation changes, before it.
     pub others_before: Vec<Arc<Curve>>,
+    /// The curves of the preview that do not meet the request.
+    pub unreached: Vec<CurveId>,
     /// The polygon that a click would make, and the curve that it would change.
     pub proposal: Option<(FloatPolygon, Option<CurveId>)>,
     /// The reference that the operation was given.

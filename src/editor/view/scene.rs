@@ -42,6 +42,8 @@ pub struct CurveScene {
     pub selected: bool,
     /// Whether it is locked.
     pub locked: bool,
+    /// Whether it is a preview that does not meet the request.
+    pub unreached: bool,
     /// Its own colour.
     pub colour: Option<Colour>,
     /// The comb's teeth.
