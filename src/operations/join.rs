@@ -279,7 +279,7 @@ impl Joining<'_> {
         let [left, right] = self.in_order(&self.parts[0].1.polygon, &second);
         let joint = Joint::between(left, right);
         if joint.meets(self.tolerance) {
-            return match joint.check(self.size) {
+            return match joint.check(self.size, self.tolerance) {
                 Ok(()) => self.merged_or_chained(),
                 Err(_) => self.chained(),
             };

@@ -174,9 +174,9 @@ fn completed(
     let image = image(&part, mirror)?;
     let [first, second] = half.in_order(&part, &image);
     let joint = Joint::between(first, second);
-    let whole = match joint.check(part.size()) {
+    let whole = match joint.check(part.size(), tolerance) {
         Ok(()) => merged([first, second], mirror, tolerance, progress)?,
-        Err(MergeError::Corner { angle }) => return Ok(corner(id, angle)),
+        Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
         Err(_) => bridged([first, second], mirror, progress)?,
     };
     let symmetric = whole.polygon;

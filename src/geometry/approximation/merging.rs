@@ -119,13 +119,15 @@ pub enum MergeError {
         most: f64,
     },
     /// The ends meet at a corner.
-    #[error(
-        "the curves meet at a corner of {}°: choose Chain, which keeps both curves",
-        significant(.angle.to_degrees(), 3)
-    )]
+    #[error("{}: choose {}", corner_text(*.angle, *.gap), match .gap {
+        Some(_) => "Bridge",
+        None => "Chain, which keeps both curves",
+    })]
     Corner {
         /// The angle between the tangents, in radians.
         angle: f64,
+        /// The distance of the ends, if they are apart.
+        gap: Option<f64>,
     },
     /// No curve was found.
     #[error("no curve with up to {ADDED} curvature extrema more than both was found: choose Chain")]
@@ -163,11 +165,12 @@ impl Joint {
         self.distance <= tolerance
     }
 
-    /// Check that corner and gap are small enough for one curve: the gap by the size of the larger curve.
+    /// Check that corner and gap are small enough for one curve: the gap by the size of the larger curve. Ends within
+    /// the tolerance meet.
     ///
     /// # Errors
     /// [`MergeError::Apart`], [`MergeError::Corner`].
-    pub fn check(self, size: f64) -> Result<(), MergeError> {
+    pub fn check(self, size: f64, tolerance: f64) -> Result<(), MergeError> {
         let Self { distance, angle } = self;
         let most = GAP * size;
         if distance > most {
@@ -175,8 +178,23 @@ impl Joint {
         }
         match angle <= BENT {
             true => Ok(()),
-            false => Err(MergeError::Corner { angle }),
+            false => Err(MergeError::Corner {
+                angle,
+                gap: (!self.meets(tolerance)).then_some(distance),
+            }),
         }
+    }
+}
+
+/// Say where two curves turn too sharply for one.
+fn corner_text(angle: f64, gap: Option<f64>) -> String {
+    let angle = significant(angle.to_degrees(), 3);
+    match gap {
+        Some(gap) => format!(
+            "the curves turn by {angle}° over a gap of {}",
+            significant(gap, 3)
+        ),
+        None => format!("the curves meet at a corner of {angle}°"),
     }
 }
 
@@ -199,7 +217,7 @@ pub fn merge(
         part.check_open("merged")?;
     }
     let joint = Joint::between(first, second);
-    joint.check(first.size().max(second.size()))?;
+    joint.check(first.size().max(second.size()), tolerance)?;
     let [own, inflections] = counts_of(parts, progress)?;
     if let Some(polygon) = continued(parts) {
         let [extrema, _] = counts_of([&polygon], progress)?;
