@@ -8,7 +8,7 @@ use super::amount::Amount;
 use super::editable::{check_measurable, open};
 use super::end_change::{is_another, moved_far, warnings_of_change};
 use super::error::OperationError;
-use super::features::remark_on_lost_inflections;
+use super::features::{gains_cusp, proved, remark_on_lost_inflections};
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, locked};
 use super::operands::Operands;
@@ -259,13 +259,18 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         }
         Some(polygon) => {
             let turned = turned_over(&curve.polygon, &polygon);
-            let mut warnings = warnings_of_change(curve, &polygon, turned.as_deref())?;
-            warnings.extend(remark_on_lost_inflections(
-                &curve.polygon,
-                &polygon,
-                progress,
-            )?);
-            let is_wrong = turned.is_some() || is_another(curve, &polygon)?;
+            let before = &curve.polygon;
+            let features = (proved(before, progress)?, proved(&polygon, progress)?);
+            let features = [&features.0, &features.1];
+            let cusp = gains_cusp([before, &polygon], features);
+            let cusp_told = cusp.then(|| {
+                "A bend is nearly a cusp now: choose another way in “Disturb least”, or refine first".to_owned()
+            });
+            let mut warnings: Vec<String> = cusp_told.into_iter().collect();
+            warnings.extend(warnings_of_change(curve, &polygon, turned.as_deref())?);
+            let lost = remark_on_lost_inflections(before.is_planar(), features);
+            warnings.extend(lost);
+            let is_wrong = turned.is_some() || cusp || is_another(curve, &polygon)?;
             let outcome = corrected(id, curve, polygon)?;
             let failed = is_wrong.then_some(Requirement::Failed { left: None });
             let requirements = requirements.iter().cloned().chain(failed).collect();

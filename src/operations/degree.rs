@@ -2,7 +2,7 @@
 
 use super::amount::Amount;
 use super::error::OperationError;
-use super::features::remark_on_lost_inflections;
+use super::features::{proved, remark_on_lost_inflections};
 use super::lists::given;
 use super::operands::Operands;
 use super::outcome::{Deviation, Figure, Outcome};
@@ -13,7 +13,9 @@ use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::fairing::counts::CountRequest;
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::{Feature, Features};
-use crate::geometry::{Approximation, FloatPolygon, MAX_PART_SEGMENTS, Progress};
+use crate::geometry::{
+    Approximation, BezierPolygon, FloatPolygon, MAX_PART_SEGMENTS, Progress, significant,
+};
 
 /// The parameter that is the degree which the curve gets.
 pub(super) const fn degree(from: Amount, to: Amount, default: Amount) -> Parameter {
@@ -39,6 +41,9 @@ const MANY: usize = 1000;
 /// The most vertices with which features are looked for that are not kept with fewer.
 const MOST_FOR_FEATURES: usize = 2000;
 
+/// A curve that moves by more than this share of its size without a tolerance is told.
+const FAR: f64 = 0.005;
+
 /// The factor by which segments grow where features are not kept.
 const GROWTH: f64 = 1.3;
 
@@ -59,10 +64,16 @@ pub(super) fn changed(
     let (polygon, degree) = (input.polygon()?, values.whole(degree));
     match given(values, &TOLERANCE) {
         None => {
-            let changed = polygon.with_degree(degree)?;
-            let lost = remark_on_lost_inflections(polygon, &changed.polygon, progress)?;
+            let changed = by_distance(polygon.with_degree(degree)?, polygon, progress);
+            let features = (
+                proved(polygon, progress)?,
+                proved(&changed.polygon, progress)?,
+            );
+            let features = [&features.0, &features.1];
+            let lost = remark_on_lost_inflections(polygon.is_planar(), features);
+            let far = far(polygon, &changed);
             let mut outcome = instead(input, changed)?;
-            outcome.remarks.extend(lost);
+            outcome.warnings.extend(far.into_iter().chain(lost));
             Ok(outcome)
         }
         tolerance => {
@@ -254,10 +265,29 @@ fn nearer_bound(
     if found.exact || tolerance.is_infinite() || found.deviation > LOOSE * tolerance {
         return Ok(found);
     }
+    Ok(by_distance(found, polygon, progress))
+}
+
+/// The approximation of a curve with the distance between both, if that can be bounded: less than the bound in the
+/// parameter, which may be several times as large.
+fn by_distance(found: Approximation, polygon: &FloatPolygon, progress: &Progress) -> Approximation {
+    if found.exact {
+        return found;
+    }
     let measured = MeasuredDeviation::between(&found.polygon, polygon, progress);
     let measured = measured.ok().filter(|it| it.bounded);
     let deviation = measured.map_or(found.deviation, |it| it.largest.min(found.deviation));
-    Ok(Approximation { deviation, ..found })
+    Approximation { deviation, ..found }
+}
+
+/// Say that the curve moves by much of its size.
+fn far(polygon: &FloatPolygon, changed: &Approximation) -> Option<String> {
+    let size = BezierPolygon::from_float(polygon).size();
+    (changed.deviation > FAR * size).then(|| {
+        let [moved, share] = [changed.deviation, 100.0 * changed.deviation / size];
+        let [moved, share] = [significant(moved, 3), significant(share, 2)];
+        format!("The curve moves by {moved}, {share} % of its size: give a tolerance")
+    })
 }
 
 /// The inflections (in space zeros of the torsion) and the curvature extrema of two curves; `None` if they have the same

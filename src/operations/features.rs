@@ -11,7 +11,16 @@ use super::outcome::Outcome;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::features::{Feature, Features, Verdict};
 use crate::geometry::harmony::{Harmony, SegmentFairness};
-use crate::geometry::{FloatPolygon, Progress};
+use crate::geometry::{BezierPolygon, FloatPolygon, Progress, significant};
+
+/// A bend that is so many times as sharp as all bends before is told.
+const SHARPER: f64 = 10.0;
+
+/// One that is so many times as sharp is a cusp to the eye.
+const CUSP: f64 = 100.0;
+
+/// A curve may always bend as a circle of its size does: the curvature of that times its size.
+const ROUND: f64 = 2.0;
 
 /// Hold the features and the harmony of each curve that an operation concerns: those that were
 /// chosen, and those that it changes, adds or removes.
@@ -40,6 +49,11 @@ pub struct FeatureCounts {
     pub cusps: usize,
     /// Places where there may be features that could not be counted.
     pub undecided: usize,
+    /// The largest curvature, without its sign.
+    pub largest_curvature: f64,
+    /// The size of the curve.
+    #[serde(skip)]
+    size: f64,
     /// Whether the curvature is monotone.
     #[serde(serialize_with = "verdict")]
     pub monotone: Verdict,
@@ -72,7 +86,8 @@ impl FeatureComparison {
         })
     }
 
-    /// Say that there are more inflections or curvature extrema than in the curves before.
+    /// Say that there are more inflections or curvature extrema than in the curves before, or a bend that is much
+    /// sharper.
     pub(super) fn remarks_on_more(&self) -> Vec<String> {
         let kinds = [
             ("Inflections", self.more(|it| it.inflections)),
@@ -83,7 +98,24 @@ impl FeatureComparison {
             let [before, now] = counts?;
             Some(format!("{kind}: {before} before, {now} now"))
         });
-        told.collect()
+        told.chain(self.remark_on_sharper()).collect()
+    }
+
+    /// Say that the curves have a much sharper bend than before.
+    fn remark_on_sharper(&self) -> Option<String> {
+        let [before, now] = [&self.before, &self.after].map(|curves| {
+            let largest = curves.iter().map(|it| it.largest_curvature);
+            largest.fold(0.0, f64::max)
+        });
+        let least = self.before.iter().map(|it| ROUND / it.size);
+        let least = least.reduce(f64::max)?;
+        (now > SHARPER * before.max(least)).then(|| {
+            let [before, now] = [before, now].map(|curvature| match curvature {
+                0.0 => "∞".to_owned(),
+                _ => significant(1.0 / curvature, 3),
+            });
+            format!("Smallest radius: {before} before, {now} now")
+        })
     }
 
     /// A count before and now, if there was a curve and it has grown.
@@ -94,28 +126,37 @@ impl FeatureComparison {
     }
 }
 
-/// Say that a curve that took another's place has lost inflections, in space zeros of the torsion.
+/// Prove the features of a curve.
 ///
 /// # Errors
 /// [`OperationError::Cancelled`].
-pub(super) fn remark_on_lost_inflections(
-    before: &FloatPolygon,
-    after: &FloatPolygon,
+pub(super) fn proved(
+    polygon: &FloatPolygon,
     progress: &Progress,
-) -> Result<Option<String>, OperationError> {
-    let count = |polygon: &FloatPolygon| {
-        let features = Features::proved(polygon, |_| !progress.is_cancelled());
-        let features = features.ok_or(OperationError::Cancelled)?;
-        Ok::<usize, OperationError>(
-            features.count(Feature::Inflection) + features.count(Feature::TorsionZero),
-        )
-    };
-    let (was, now) = (count(before)?, count(after)?);
-    let kind = match before.is_planar() {
+) -> Result<Features, OperationError> {
+    let features = Features::proved(polygon, |_| !progress.is_cancelled());
+    features.ok_or(OperationError::Cancelled)
+}
+
+/// Say that a curve that took another's place has lost inflections, in space zeros of the torsion.
+pub(super) fn remark_on_lost_inflections(
+    planar: bool,
+    [before, after]: [&Features; 2],
+) -> Option<String> {
+    let [was, now] = [before, after]
+        .map(|features| features.count(Feature::Inflection) + features.count(Feature::TorsionZero));
+    let kind = match planar {
         true => "Inflections",
         false => "Zeros of the torsion",
     };
-    Ok((now < was).then(|| format!("{kind}: {was} before, {now} now")))
+    (now < was).then(|| format!("{kind}: {was} before, {now} now"))
+}
+
+/// Whether a curve that took another's place bends so sharply somewhere that it seems to have a cusp there.
+pub(super) fn gains_cusp([before, after]: [&FloatPolygon; 2], features: [&Features; 2]) -> bool {
+    let least = ROUND / BezierPolygon::from_float(before).size();
+    let before = features[0].largest_curvature(before).max(least);
+    before.is_finite() && features[1].largest_curvature(after) > CUSP * before
 }
 
 impl FeatureCounts {
@@ -129,6 +170,8 @@ impl FeatureCounts {
             torsion_extrema: features.count(Feature::TorsionExtremum),
             cusps,
             undecided: features.undecided.len() + features.cusps.len() - cusps,
+            largest_curvature: features.largest_curvature(&curve.polygon),
+            size: BezierPolygon::from_float(&curve.polygon).size(),
             monotone: features.monotone,
             harmony: harmony.clone(),
         }

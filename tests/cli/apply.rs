@@ -20,7 +20,8 @@ const KEYS: [&str; 9] = [
 ];
 
 /// The keys of the features of each curve.
-const COUNTS: [&str; 9] = [
+const COUNTS: [&str; 10] = [
+    "largest_curvature",
     "name",
     "inflections",
     "curvature_extrema",

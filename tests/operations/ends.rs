@@ -367,3 +367,51 @@ fn a_correction_tells_the_inflections_that_it_makes() {
         "{remarks:?}"
     );
 }
+
+#[test]
+fn a_correction_that_makes_a_cusp_is_not_reached() {
+    let section = [
+        (1.0, 7.3323e-05),
+        (0.93985, 0.014831),
+        (0.81713, 0.04266),
+        (0.55337, 0.093169),
+        (0.28018, 0.095779),
+        (0.043504, 0.054452),
+        (-0.0010207, -0.0063084),
+        (-0.011984, 0.0033779),
+        (0.04796, -0.016915),
+        (0.14752, 5.7093e-05),
+        (0.48309, 0.033224),
+        (0.80317, 0.01305),
+        (0.94118, 0.0032901),
+        (1.0, -4.7195e-06),
+    ];
+    let runner = Runner::of(FloatPolygon::planar(5, &section).expect("a polygon"));
+    let ends = [
+        ("start", Value::List(vec![1.0, 0.002])),
+        ("end", Value::List(vec![1.0, -0.002])),
+    ];
+    let by = |order: usize| [&ends[..], &[("order", Value::Choice(order))]].concat();
+    let (automatic, harmony) = (0, 5);
+    assert!(
+        runner
+            .run("correct-ends", &by(automatic))
+            .expect("it can run")
+            .reached
+    );
+    let outcome = runner
+        .run("correct-ends", &by(harmony))
+        .expect("it can run");
+    assert!(!outcome.reached);
+    assert!(
+        outcome.warnings[0].contains("nearly a cusp"),
+        "{:?}",
+        outcome.warnings
+    );
+    let report = runner.report("correct-ends", &by(harmony));
+    let told = report
+        .warnings
+        .iter()
+        .any(|it| it.starts_with("Smallest radius: "));
+    assert!(told, "{:?}", report.warnings);
+}

@@ -110,9 +110,16 @@ fn all_reports_have_one_schema() {
             "torsion_extrema": 0,
             "cusps": 0,
             "undecided": 0,
+            "largest_curvature": found[side][0]["largest_curvature"],
             "monotone": "disproved",
         }])
     };
+    // The radius at the two maxima, to six digits.
+    let largest = found["features_before"][0]["largest_curvature"].as_f64();
+    assert!(
+        largest.is_some_and(|largest| (1.0 / largest - 42.1634).abs() < 1e-4),
+        "{largest:?}"
+    );
     let extrema = found["features_after"][0]["curvature_extrema"].as_u64();
     let extrema = extrema.expect("a count") as usize;
     assert!(

@@ -1,5 +1,8 @@
 //! Proved features of a whole curve.
 
+use crate::geometry::end::End;
+use crate::geometry::float_polygon::FloatPolygon;
+
 /// Hold the proved features of a curve, each list in the order of u.
 ///
 /// An interval `u` = \[lo, hi\] is part of the domain \[0, L\], lo ≤ hi; on a periodic curve one
@@ -62,6 +65,23 @@ impl Features {
     pub fn count(&self, quantity: Feature) -> usize {
         let places = self.places(quantity).into_iter();
         places.map(|(_, count)| count).sum()
+    }
+
+    /// The largest curvature of the curve with these features, without its sign: at an end or an extremum. Infinite at
+    /// a cusp.
+    pub fn largest_curvature(&self, polygon: &FloatPolygon) -> f64 {
+        if !self.cusps.is_empty() {
+            return f64::INFINITY;
+        }
+        let ends = End::BOTH.map(|end| polygon.end_jet(end).curvature());
+        let extrema = self.curvature_extrema.iter().map(|it| {
+            let [low, high] = it.value.map(f64::abs);
+            match low.min(high) {
+                known if known.is_finite() => known,
+                _ => polygon.jet(0.5 * (it.u[0] + it.u[1])).curvature(),
+            }
+        });
+        ends.into_iter().chain(extrema).fold(0.0, f64::max)
     }
 
     /// The intervals of u that hold the features of a kind, with their numbers.
