@@ -221,7 +221,7 @@ impl Application {
             (_, []) => bail!(match inputs {
                 Inputs::OneOrNone => "there is neither a curve nor a reference",
                 Inputs::References => "there is no reference",
-                Inputs::Points => "there is neither a curve nor a list of points",
+                Inputs::Points => no_points(document),
                 _ => no_curve(document),
             }),
             (Some(name), _) => found(&items, inputs, name),
@@ -315,6 +315,16 @@ fn no_curve(document: &Document) -> &'static str {
     match references.any(|(_, reference)| reference.points().is_some()) {
         true => "there is no curve, only points: make a curve of them with batten apply fit",
         false => "there is no curve",
+    }
+}
+
+/// Say that a document has no points to fit, and what makes float polygons of its references.
+fn no_points(document: &Document) -> &'static str {
+    match document.references().next() {
+        Some(_) => {
+            "there is no list of points: make float polygons of references with batten apply to-float"
+        }
+        None => "there is neither a curve nor a list of points",
     }
 }
 
