@@ -40,13 +40,11 @@ const FAR: f64 = 6.0;
 const SKIPS_FROM: usize = 4;
 const STRIDES_FROM: usize = 8;
 
-/// Where a smoothed curve lets expect so many extrema or more, the search tries up to so many numbers from there on first,
-/// in this share of the time: smaller ones may take all of it to miss the tolerance. A number that misses it by more than
-/// this factor and gains little is given up early, so that the others have the time if the expectation was wrong.
-const EXPECTED: usize = 3;
-const EXPECTED_TRIES: usize = 3;
+/// From the number of extrema on that a smoothed curve lets expect, larger and larger ones are tried first, in this share
+/// of the time: smaller ones may take all of it to miss the tolerance. A number that misses it by more than this factor
+/// and gains little is given up early, so that the others have the time if the expectation was wrong.
 const EXPECTED_TIME: f64 = 0.3;
-const EXPECTED_FAR: f64 = 1.5;
+const EXPECTED_FAR: f64 = 1.2;
 
 /// The same factor for smaller numbers than one that keeps the tolerance. With half of it, sections get up to five extrema
 /// more than they take.
@@ -621,9 +619,6 @@ impl Fit<'_> {
     ) -> Option<usize> {
         let task = self.task(0, None);
         let expected = task.estimated_extrema(most, self.prepared.tolerance)?;
-        if expected < EXPECTED {
-            return None;
-        }
         let progress = self.progress.hurried(EXPECTED_TIME);
         let hurried = Fit {
             progress: &progress,
@@ -631,9 +626,9 @@ impl Fit<'_> {
         };
         let first = least + expected.saturating_sub(least).div_ceil(step) * step;
         let next = |extrema: &usize| Some(extrema + step + extrema / 4 / step * step);
-        let numbers =
-            std::iter::successors(Some(first), next).take_while(|extrema| *extrema <= most);
-        let mut numbers = numbers.take(EXPECTED_TRIES);
+        let numbers = std::iter::successors(Some(first), next);
+        let mut numbers =
+            numbers.take_while(|extrema| *extrema <= most && !progress.is_cancelled());
         numbers.find(|extrema| hurried.searched(*extrema, EXPECTED_FAR, search).keeps)
     }
 

@@ -99,7 +99,8 @@ pub(super) struct Task<'a> {
     pub(super) most: usize,
     /// The largest distance of a point.
     pub(super) tolerance: Option<f64>,
-    /// From the fourth level on, a tolerance that is missed by more than this factor and gains little is given up.
+    /// From the fourth level on, a tolerance that is missed by more than this factor and gains little is given up;
+    /// nothing is pressed within it then.
     pub(super) far: f64,
     /// A curve with the number of vertices asked for, from which held ones are taken.
     pub(super) known: Option<&'a PlacedCurve>,
@@ -188,7 +189,8 @@ impl<'a> Task<'a> {
             });
             let ends = count >= most || is_far || (stale >= STALE && self.count.is_none());
             if let (Some(best), Some(tolerance)) = (levels.last(), self.tolerance) {
-                let is_close = best.largest > tolerance && best.largest < CLOSE * tolerance;
+                let close = CLOSE.min(self.far) * tolerance;
+                let is_close = best.largest > tolerance && best.largest < close;
                 let is_new = tried != Some(levels.len());
                 if is_close && is_new && (ends || stale >= 1) {
                     tried = Some(levels.len());
