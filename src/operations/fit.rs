@@ -17,9 +17,11 @@ use super::values::Values;
 use crate::document::{Curve, Edit};
 use crate::geometry::approximation::{self, FitRequest, fit_points};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::fitting::{CountedPoints, Extrema, FitError, Fitted, PlaneFit, SymmetryAxis};
+use crate::geometry::fitting::{
+    CountedPoints, Extrema, FitError, Fitted, PlaneFit, SharpBend, SymmetryAxis,
+};
 use crate::geometry::parameters::{OutOfRange, Quantity};
-use crate::geometry::{FloatPolygon, MAX_DEGREE, Progress, counted, significant};
+use crate::geometry::{BezierPolygon, FloatPolygon, MAX_DEGREE, Progress, counted, significant};
 
 /// A vertex farther off the curve than so many times its size is named.
 const LONG_TAIL: f64 = 5.0;
@@ -594,8 +596,27 @@ fn warnings(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
         };
         format!("The curve crosses itself at {x}, {y}, its points do not: {advice}")
     });
+    let size = BezierPolygon::from_float(&found.polygon).size();
+    let bend = found.sharp_bend.map(|bend| told_bend(bend, size));
     let tails = tails(&found.polygon);
-    crossing.into_iter().chain(tails).collect()
+    crossing.into_iter().chain(bend).chain(tails).collect()
+}
+
+/// Say where the curve bends more sharply than its points, to four digits of its size.
+fn told_bend(bend: SharpBend, size: f64) -> String {
+    let digit = 10.0_f64.powf(size.log10().ceil() - 4.0);
+    let place = (bend.at / digit).round() * digit;
+    let [x, y] = place
+        .to_array()
+        .map(|coordinate| significant(coordinate, 4));
+    let own = significant(1.0 / bend.curvature, 3);
+    let shown = match bend.shown {
+        0.0 => "lie straight".to_owned(),
+        shown => format!("show a radius of {} at least", significant(1.0 / shown, 3)),
+    };
+    format!(
+        "A bend has the radius {own} at {x}, {y}, where the points {shown}: ask for other extrema, or give a curvature"
+    )
 }
 
 /// What is to say beside the figures.

@@ -427,3 +427,20 @@ fn polygons_of_sections_are_harmonised_with_their_ends() {
         assert!(median <= limit, "{extrema} extrema: {median}");
     }
 }
+
+#[test]
+fn a_bend_that_the_points_do_not_show_is_told() {
+    // With too few extrema the nose of the one becomes a corner; the other has room for a round one.
+    for (section, extrema, is_told) in [("goe114", 1, true), ("naca2412", 1, false)] {
+        let points = files(&folder())
+            .into_iter()
+            .find(|(name, _)| name == section);
+        let (_, points) = points.expect("a section");
+        let (found, _) = fit(section, &points, &asked(Extrema::Exactly(extrema), None));
+        assert!(found.holds, "{section}");
+        let bend = found.sharp_bend.filter(|it| it.curvature > 4.0 * it.shown);
+        assert_eq!(bend.is_some(), is_told, "{section}: {:?}", found.sharp_bend);
+        let nose = bend.map_or(0.0, |it| it.at.length());
+        assert!(nose < 0.01, "{section}: {nose}");
+    }
+}

@@ -10,6 +10,7 @@ use super::levels::{self, Level, Task};
 use super::plane_fit::{Extrema, PlaneFit};
 use super::prepared::Prepared;
 use super::problem::{Data, EndCondition, EndValue};
+use super::sharp_bend::{SharpBend, sharp_bend};
 use super::slope_coefficients::SlopeTables;
 use super::winding::crossing_of;
 use crate::geometry::end::End;
@@ -122,6 +123,8 @@ pub struct Fitted {
     pub repeated: Vec<usize>,
     /// Whether the time was up before the search had ended.
     pub stopped: bool,
+    /// A bend that the points do not show.
+    pub sharp_bend: Option<SharpBend>,
     /// A point where the curve crosses itself, if the polyline of the points does not.
     pub crossing: Option<DVec2>,
     /// If it does, others that do not and are about as near: the one that exact ends make of it, and of the others found
@@ -823,9 +826,27 @@ impl Fit<'_> {
             least_extrema: None,
             repeated: prepared.repeated.clone(),
             stopped: self.progress.is_late(),
+            sharp_bend: sharp_bend(&polygon, &features, &self.placed(level), self.known_bends()),
             crossing: crossing_of(&polygon, points),
             uncrossed: Vec::new(),
             polygon,
+        })
+    }
+
+    /// The points that count with their parameters, back where they are.
+    fn placed(&self, level: &Level) -> Vec<(DVec2, f64)> {
+        let (unit, middle) = (self.whole.unit, self.whole.middle);
+        let placed = self.task_of_all(0, None).placed_points(level).into_iter();
+        placed
+            .map(|(point, u)| (unit * point + middle, u))
+            .collect()
+    }
+
+    /// The ends whose curvature is asked for.
+    fn known_bends(&self) -> [bool; 2] {
+        End::BOTH.map(|end| {
+            let mut own = self.whole.ends.iter().filter(|it| it.end == end);
+            own.any(|it| matches!(it.value, EndValue::Curvature(_)))
         })
     }
 
