@@ -106,6 +106,9 @@ const CORNER: f64 = 10.0 * PI / 180.0;
 /// A gap of at most this share of the size of both curves is closed by merging where a bridge does not fit into it.
 const SMALL: f64 = 0.03;
 
+/// Across a longer gap a merged curve may move both by this share.
+const ACROSS: f64 = 0.01;
+
 /// The share of a tolerance that is tried where nothing is found with it.
 const NEARER: f64 = 0.2;
 
@@ -272,8 +275,8 @@ struct Joining<'a> {
 impl Joining<'_> {
     /// Merge curves that meet if the tolerance allows it, chain those that meet at a corner, bridge a gap.
     ///
-    /// Where the gap is too short for a bridge between the segments as they are, a merged curve closes it, if there is
-    /// one, or else a bridge between finer segments, or a chain.
+    /// Where no bridge between the segments as they are fits the gap without a knuckle, a merged curve closes it, if there
+    /// is one, or else a bridge between finer segments, or a chain.
     fn best(&self) -> Result<Outcome, OperationError> {
         let second = self.second();
         let [left, right] = self.in_order(&self.parts[0].1.polygon, &second);
@@ -286,11 +289,15 @@ impl Joining<'_> {
         }
         let gap = joint.distance;
         let (bridged, fits) = self.bridge()?;
-        if fits || gap > SMALL * self.size {
+        if fits {
             return Ok(bridged);
         }
         // A hair more, so that rounding does not leave the ends apart.
-        let tolerance = self.tolerance.max(gap * (1.0 + MET));
+        let closed = gap * (1.0 + MET);
+        let tolerance = self.tolerance.max(match gap > SMALL * self.size {
+            true => ACROSS * self.size,
+            false => closed,
+        });
         let merged = match self.merged(tolerance) {
             // A search for a nearer curve goes other ways.
             Err(OperationError::Merge(MergeError::NotFound)) => self.merged(NEARER * tolerance),
@@ -298,9 +305,10 @@ impl Joining<'_> {
         };
         match merged {
             Ok((mut merged, possible)) if possible <= tolerance => {
-                merged.remarks.push(
-                    "Merged within the gap, which is short; Bridge keeps both curves".to_owned(),
-                );
+                let moved = significant(possible, 3);
+                merged.remarks.push(format!(
+                    "Merged: no plain bridge fits the gap. The curves move by {moved}; Bridge keeps both"
+                ));
                 Ok(merged)
             }
             Err(OperationError::Cancelled) => Err(OperationError::Cancelled),
@@ -423,7 +431,7 @@ impl Joining<'_> {
         Ok((outcome, deviation))
     }
 
-    /// Join by a bridge, which is not reached if it goes a long way round; says whether the parts fit it as they are.
+    /// Join by a bridge, which is not reached if it goes a long way round; says whether the parts fit it as they are, without a knuckle.
     fn bridge(&self) -> Result<(Outcome, bool), OperationError> {
         let [(_, first), (_, second)] = self.parts;
         let moves = self.values.switch(&MOVE_SECOND);
@@ -474,6 +482,14 @@ impl Joining<'_> {
         let fault = bridge::fault(&found, polygons);
         let knuckle = bridge::knuckle(&found, polygons).filter(|_| fault.is_none());
         outcome.warnings.extend(knuckle);
+        let size = BezierPolygon::from_float(&second.polygon).size();
+        outcome
+            .warnings
+            .extend((changed.deviation > FAR * size).then(|| {
+                let moved = significant(changed.deviation, 3);
+                let degree = first.polygon.degree();
+                format!("The second curve gets the degree {degree} and moves by {moved}: select it first, or change a degree")
+            }));
         if let Some(fault) = &fault {
             let failed = Requirement::Failed { left: None };
             outcome.requirements = vec![(self.parts[0].0, vec![failed])];
@@ -481,7 +497,8 @@ impl Joining<'_> {
                 .warnings
                 .push(format!("{fault}: Merge or Chain, or move the ends apart"));
         }
-        Ok((outcome, found.halvings == 0 && fault.is_none()))
+        let is_plain = found.halvings == 0 && fault.is_none() && outcome.warnings.is_empty();
+        Ok((outcome, is_plain))
     }
 
     /// Let the second curve follow the end of the first.

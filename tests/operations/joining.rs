@@ -3,8 +3,8 @@
 use batten::document::{Curve, Document, Edit, EndMatch, LockedVertices, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::features::{Feature, Features};
-use batten::geometry::{Continuity, End, FloatPolygon, Progress, curve_crossing};
-use batten::operations::{Operands, Outcome, Report, Value};
+use batten::geometry::{BezierPolygon, Continuity, End, FloatPolygon, Progress, curve_crossing};
+use batten::operations::{Deviation, Operands, Outcome, Report, Value};
 use glam::{DQuat, DVec3};
 use serde_json::{Value as Json, json};
 
@@ -621,7 +621,7 @@ fn a_bridge_that_goes_a_long_way_round_is_told_or_merged_instead() {
         let told = format!("trial {trial}: {}", report.text());
         assert_eq!(text(&report, "method"), "merge", "{told}");
         assert!(
-            outcome.reached && told.contains("Merged within the gap"),
+            outcome.reached && told.contains("Merged: no plain bridge fits the gap"),
             "{told}"
         );
         let (bridged, _, report) = join(&document, &[("method", Value::Choice(2))]);
@@ -780,4 +780,38 @@ fn merging_keeps_what_follows_the_curves_and_refuses_locked_vertices() {
     document.apply(lock).expect("an edit");
     let (_, _, report) = join(&document, &[]);
     assert_eq!(text(&report, "method"), "chain");
+}
+
+#[test]
+fn a_short_curve_beside_the_end_of_a_long_one_is_merged_in_either_order() {
+    // A fit to a scan, and a short curve that goes on 12 below its end: a bridge is a loop or a knuckle.
+    let scan = [
+        (-28.9, -9.2),
+        (-27.0, -17.7),
+        (-12.2, -6.3),
+        (55.0, 32.5),
+        (106.4, 45.6),
+        (153.6, 34.9),
+        (186.4, 21.9),
+        (279.5, -30.6),
+        (330.2, -141.1),
+    ];
+    let short = [(188.7, 17.6), (203.2, -0.6), (225.0, -11.5), (246.8, -7.8)];
+    let long = FloatPolygon::planar(5, &scan).expect("a polygon");
+    let short = FloatPolygon::planar(3, &short).expect("a polygon");
+    let size = BezierPolygon::from_float(&long).size();
+    for parts in [[&long, &short], [&short, &long]] {
+        let curves = parts.map(|polygon| Curve::new("part".to_owned(), polygon.clone()));
+        let (outcome, after, report) = join(&Document::from_curves(curves), &[]);
+        assert!(outcome.reached, "{}", report.text());
+        assert_eq!(text(&report, "method"), "merge");
+        let merged = &only(&after).polygon;
+        assert!(Features::new(merged).count(Feature::CurvatureExtremum) <= 2 + 2);
+        assert_eq!(curve_crossing(merged), None);
+        assert!(merged.vertices().len() <= 30, "{}", merged.vertices().len());
+        let (Deviation::AtMost(moved) | Deviation::Measured(moved)) = outcome.deviation else {
+            panic!("{:?}", outcome.deviation);
+        };
+        assert!(moved <= 0.01 * size, "{moved}");
+    }
 }
