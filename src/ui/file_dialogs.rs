@@ -220,7 +220,7 @@ impl Prompt {
         }
         self.remark_ui(ui);
         let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-        let path = || completed(&self.purpose, &from_home(self.text.trim()));
+        let path = || completed(&self.purpose, &typed(self.text.trim()));
         let mut answer = entered.then(|| Some(path()));
         ui.horizontal(|ui| {
             widgets::at_right(ui, |ui| {
@@ -331,8 +331,15 @@ fn replaces(purpose: &Purpose, path: &Path) -> bool {
     purpose.written().is_some() && path.is_file()
 }
 
-/// Read "~" as the home folder, as people type it.
-fn from_home(text: &str) -> PathBuf {
+/// Read a path as people type it: "~" is the home folder, and "//" or "/~/" behind a folder begins a path anew.
+fn typed(text: &str) -> PathBuf {
+    let begins = ["//", "/~/"].map(|mark| text.rfind(mark));
+    let begin = begins
+        .into_iter()
+        .flatten()
+        .filter(|place| *place > 0)
+        .max();
+    let text = begin.map_or(text, |place| &text[place + 1..]);
     let home = std::env::var_os(if cfg!(windows) { "USERPROFILE" } else { "HOME" });
     match (text.strip_prefix("~/"), home) {
         (Some(rest), Some(home)) => PathBuf::from(home).join(rest),
@@ -383,6 +390,18 @@ fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_path_typed_behind_the_proposed_folder_begins_anew() {
+        for (text, read) in [
+            ("/home/me//tmp/scan.csv", "/tmp/scan.csv"),
+            ("/home/me/scan.csv", "/home/me/scan.csv"),
+            ("//server/scan.csv", "//server/scan.csv"),
+        ] {
+            assert_eq!(typed(text), PathBuf::from(read));
+        }
+        assert_eq!(typed("/home/me/~/scan.csv"), typed("~/scan.csv"));
+    }
 
     #[test]
     fn every_open_dialog_is_answered_for_its_own_purpose() {
