@@ -21,7 +21,9 @@ use crate::geometry::fitting::{
     CountedPoints, Extrema, FitError, Fitted, PlaneFit, SharpBend, SymmetryAxis,
 };
 use crate::geometry::parameters::{OutOfRange, Quantity};
-use crate::geometry::{BezierPolygon, FloatPolygon, MAX_DEGREE, Progress, counted, significant};
+use crate::geometry::{
+    BezierPolygon, End, FloatPolygon, MAX_DEGREE, Progress, counted, significant,
+};
 
 /// A vertex farther off the curve than so many times its size is named.
 const LONG_TAIL: f64 = 5.0;
@@ -598,8 +600,54 @@ fn warnings(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
     });
     let size = BezierPolygon::from_float(&found.polygon).size();
     let bend = found.sharp_bend.map(|bend| told_bend(bend, size));
+    let dives = match found.noise > NOISY * size {
+        true => dives(asked, &found.polygon),
+        false => Vec::new(),
+    };
     let tails = tails(&found.polygon);
-    crossing.into_iter().chain(bend).chain(tails).collect()
+    let told = crossing.into_iter().chain(bend).chain(dives);
+    told.chain(tails).collect()
+}
+
+/// With more noise than this, by the size, circles through three points tell no bend.
+const NOISY: f64 = 5e-4;
+
+/// The share of the segments that lie beside an end, and the samples of the others.
+const BESIDE: f64 = 0.1;
+const SAMPLES: usize = 200;
+
+/// An end whose curvature is so many times the largest beyond that dives, and so does one that bends the other way by this
+/// share of it: no extremum tells.
+const DIVES: f64 = 2.0;
+const OTHER_WAY: f64 = 0.5;
+
+/// Say which ends bend much more than the rest of the curve, if their curvature is not asked for.
+fn dives(asked: &PlaneFit, polygon: &FloatPolygon) -> Vec<String> {
+    if polygon.is_periodic() {
+        return Vec::new();
+    }
+    let length = polygon.segments() as f64;
+    let curvature = |share: f64| polygon.jet(share * length).signed_curvature();
+    let share = |sample: usize| BESIDE + (1.0 - 2.0 * BESIDE) * sample as f64 / SAMPLES as f64;
+    let rest = (0..=SAMPLES).map(|sample| curvature(share(sample)).abs());
+    let rest = rest.fold(0.0, f64::max);
+    let ends = [(0.0, BESIDE), (1.0, 1.0 - BESIDE)].into_iter();
+    let ends = ends.zip(End::BOTH).zip(asked.curvatures);
+    let dives = ends.filter_map(|(((at, beside), end), asked)| {
+        let [own, beside] = [at, beside].map(curvature);
+        let most = match own * beside < 0.0 {
+            true => OTHER_WAY,
+            false => DIVES,
+        };
+        (asked.is_none() && own.abs() > most * rest && rest > 0.0).then(|| {
+            let [own, rest] = [own.abs(), rest].map(|curvature| significant(1.0 / curvature, 3));
+            let name = end.name();
+            format!(
+                "The {name} bends to the radius {own}, the rest to {rest}: ask for one more extremum, or give its curvature"
+            )
+        })
+    });
+    dives.collect()
 }
 
 /// Say where the curve bends more sharply than its points, to four digits of its size.

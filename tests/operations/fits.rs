@@ -10,6 +10,7 @@ use batten::operations::{Deviation, Operands, Report, Value};
 use glam::DVec3;
 
 use super::runner::operation;
+use crate::common::Random;
 
 /// How far ends that meet are apart, in units of outlines of a size of 20.
 const MET: f64 = 1e-12;
@@ -377,4 +378,27 @@ fn a_piece_that_has_no_fit_is_named() {
     ];
     let error = report_of(outline(false), values).expect_err("too few points");
     assert!(error.contains("piece 1, points 20 to 40: "), "{error}");
+}
+
+#[test]
+fn an_end_that_dives_between_noisy_points_is_told() {
+    // Points of an arc with noise; where the tail of the last ones leads inwards the curvature dives.
+    let arc = |bent: f64| -> Vec<DVec3> {
+        let mut random = Random(3);
+        let points = (0..80).map(|index| {
+            let share = f64::from(index) / 79.0;
+            let radius = 100.0 + random.between(-0.5, 0.5) - bent * (share - 0.9).max(0.0).powi(2);
+            let angle = (150.0 - 120.0 * share).to_radians();
+            radius * DVec3::new(angle.cos(), angle.sin(), 0.0)
+        });
+        points.collect()
+    };
+    for (bent, is_told) in [(0.0, false), (600.0, true)] {
+        let found = report(arc(bent), &[]).expect("a fit");
+        let told = found
+            .warnings
+            .iter()
+            .any(|it| it.starts_with("The end bends to the radius"));
+        assert_eq!(told, is_told, "{bent}: {:?}", found.warnings);
+    }
 }
