@@ -64,14 +64,14 @@ pub(super) fn changed(
     let (polygon, degree) = (input.polygon()?, values.whole(degree));
     match given(values, &TOLERANCE) {
         None => {
-            let changed = by_distance(polygon.with_degree(degree)?, polygon, progress);
+            let changed = polygon.with_degree(degree)?;
             let features = (
                 proved(polygon, progress)?,
                 proved(&changed.polygon, progress)?,
             );
             let features = [&features.0, &features.1];
             let lost = remark_on_lost_inflections(polygon.is_planar(), features);
-            let far = far(polygon, &changed);
+            let far = far(polygon, &by_distance(changed.clone(), polygon, progress));
             let mut outcome = instead(input, changed)?;
             outcome.warnings.extend(far.into_iter().chain(lost));
             Ok(outcome)
