@@ -234,8 +234,13 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
 fn ends_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     let periodic = curve.polygon.is_periodic();
     ui.spacing_mut().item_spacing.x = STEP;
-    for (name, wanted) in [("Open", false), ("Periodic", true)] {
+    let helps = [
+        "The curve ends where its first and last segments do",
+        "The curve closes round all vertices of its polygon (Close curve joins the ends instead)",
+    ];
+    for ((name, wanted), help) in [("Open", false), ("Periodic", true)].into_iter().zip(helps) {
         let response = ui.add(Button::selectable(periodic == wanted, name));
+        let response = response.on_hover_text(help);
         if response.clicked() && periodic != wanted {
             told(editor.execute(Command::TogglePeriodic));
         }

@@ -308,6 +308,36 @@ fn deleting_the_other_curve_dissolves_the_match_and_undo_brings_both_back() {
 }
 
 #[test]
+fn a_picked_target_is_kept_matched_afterwards() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G1, false);
+    assert_eq!(script.editor.document().matches().len(), 0);
+    script.end_fit_action(EndFitAction::KeepMatched(true));
+    let matched = first_match(&script);
+    assert_eq!((matched.source, matched.end), (ids[0], End::Start));
+    assert_eq!(matched.continuity, Continuity::G1);
+    let whole: Vec<usize> = (0..curve(&script, ids[0]).polygon.vertices().len()).collect();
+    let by = DVec3::new(0.3, -0.2, 0.0);
+    let moves = whole.into_iter().map(|vertex| {
+        let point = curve(&script, ids[0]).polygon.vertex(vertex);
+        (vertex, point + by)
+    });
+    let moves = moves.collect();
+    let moved = Edit::MoveVertices {
+        curve: ids[0],
+        moves,
+    };
+    script.editor.change(moved).expect("moved");
+    assert!(missing(&script, &matched) < 1e-9);
+    script.end_fit_action(EndFitAction::KeepMatched(false));
+    assert_eq!(script.editor.document().matches().len(), 0);
+    // Without a target nothing was picked for this end.
+    script.end_fit_action(EndFitAction::ClearTarget);
+    script.end_fit_action(EndFitAction::KeepMatched(true));
+    assert_eq!(script.editor.document().matches().len(), 0);
+}
+
+#[test]
 fn a_chain_of_curves_follows_from_the_first_to_the_last() {
     let (mut script, ids) = script();
     let points = [

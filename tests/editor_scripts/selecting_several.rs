@@ -1,7 +1,7 @@
 //! Several curves and references, selected together: by clicks, by a box, and what commands make of them.
 
-use batten::document::{Curve, CurveId, Edit, EndMatch, MatchPlace};
-use batten::editor::{CombsOf, Command, CopyForm, Key, Layer, Modifiers};
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use batten::editor::{CombsOf, Command, CopyForm, Editor, Key, Layer, Modifiers};
 use batten::geometry::references::KINDS;
 use batten::geometry::{Continuity, End, FloatPolygon};
 use glam::DVec2;
@@ -408,4 +408,37 @@ fn fitting_the_selection_fits_the_curves() {
         !holds(&script, arc, 0.5),
         "what is not selected is out of sight"
     );
+}
+
+#[test]
+fn a_curve_that_crosses_itself_when_it_closes_says_so() {
+    // The tails of an arc's polygon cross; a ring's do not.
+    let arc: Vec<(f64, f64)> = (0..9)
+        .map(|index| {
+            let angle = 0.55 * f64::from(index);
+            (10.0 * angle.cos(), 10.0 * angle.sin() - 2.0 * angle)
+        })
+        .collect();
+    let crossed = [
+        (0.0, 0.0),
+        (4.0, 0.0),
+        (8.0, 2.0),
+        (8.0, 8.0),
+        (2.0, 8.0),
+        (4.0, -6.0),
+        (9.0, -6.0),
+    ];
+    for (vertices, warns) in [(arc, false), (crossed.to_vec(), true)] {
+        let curve = Curve::new(
+            "curve",
+            FloatPolygon::planar(3, &vertices).expect("a polygon"),
+        );
+        let mut script = Script {
+            editor: Editor::with_document(Document::from_curves([curve])),
+        };
+        script.command(Command::TogglePeriodic);
+        let message = script.editor.message();
+        let told = message.is_some_and(|it| it.warns && it.text.contains("crosses itself"));
+        assert_eq!(told, warns, "{message:?}");
+    }
 }

@@ -105,11 +105,21 @@ fn set_up(
         }
         EndFitAction::KeepMatched(live) => {
             settings.live = live;
-            if live || matched.is_none() {
-                return Ok(None);
+            if !live {
+                let remove = Edit::RemoveMatch { curve: id, end };
+                return Ok(matched.map(|_| ("Remove match", vec![remove])));
             }
-            let remove = Edit::RemoveMatch { curve: id, end };
-            return Ok(Some(("Remove match", vec![remove])));
+            // A target that was picked before is matched now.
+            let picked = settings.picked.filter(|picked| {
+                let is_own = (picked.curve, picked.end) == (id, end);
+                is_own && matched.is_none() && curve.targets.get(end).is_some()
+            });
+            let picked = picked.filter(|picked| picked.target(document).is_some());
+            let kept = picked.map(|picked| EndMatch {
+                continuity: settings.continuity,
+                ..picked
+            });
+            return Ok(kept.map(|kept| ("Match end", vec![Edit::SetMatch(kept)])));
         }
         EndFitAction::TurnRound if matched.is_some() => {
             let turned = matched.map(|matched| EndMatch {

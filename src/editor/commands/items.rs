@@ -3,6 +3,7 @@
 use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
 use crate::editor::polygon_edits::periodicity;
 use crate::editor::reply::Refusal;
+use crate::geometry::curve_crossing;
 use crate::io::counted_items;
 
 /// The most names of items that a message lists.
@@ -127,6 +128,21 @@ impl Change {
             edit.map_err(|error| format!("{}: {error}", quoted(&curve.name)))
         })
     }
+}
+
+/// The warning that a curve which closes crosses itself.
+pub(super) const CROSSES: &str = "The curve crosses itself: it closes round all vertices of its polygon. \
+     Close curve joins its ends instead";
+
+/// Whether a planar curve among items crosses itself, and did not before.
+pub(super) fn cross_now(before: &Document, now: &Document, items: &[CurveId]) -> bool {
+    let crosses = |document: &Document, id: CurveId| {
+        let polygon = document.curve(id).map(|curve| &curve.polygon);
+        let planar = polygon.filter(|polygon| polygon.is_planar());
+        planar.and_then(curve_crossing).is_some()
+    };
+    let mut items = items.iter();
+    items.any(|id| crosses(now, *id) && !crosses(before, *id))
 }
 
 /// The items that are hidden, of those that were.

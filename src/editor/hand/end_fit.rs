@@ -200,6 +200,8 @@ pub struct EndFitSettings {
     pub continuity: Continuity,
     /// Whether it is kept matched.
     pub live: bool,
+    /// What the last pick took, to be kept matched afterwards.
+    pub picked: Option<EndMatch>,
     /// Whether the closed S-polygon stands in for the float one, as in steps 2 and 3.
     pub closed: bool,
     /// The tolerance that was typed; `None` offers one by the curve's size.
@@ -213,6 +215,7 @@ impl Default for EndFitSettings {
             picking: false,
             continuity: Continuity::default(),
             live: false,
+            picked: None,
             closed: false,
             tolerance: None,
         }

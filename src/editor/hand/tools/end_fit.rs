@@ -259,7 +259,10 @@ impl EndFitTool {
             }
         };
         vec![
-            context.set(|settings| settings.end_fit.picking = false),
+            context.set(|settings| {
+                settings.end_fit.picking = false;
+                settings.end_fit.picked = Some(matched);
+            }),
             Effect::Apply(label.to_owned(), edits),
         ]
     }
