@@ -44,7 +44,7 @@ const STRIDES_FROM: usize = 8;
 /// From the number of extrema on that a smoothed curve lets expect, larger and larger ones are tried first, in this share
 /// of the time: smaller ones may take all of it to miss the tolerance. A number that misses it by more than this factor
 /// and gains little is given up early, so that the others have the time if the expectation was wrong.
-const EXPECTED_TIME: f64 = 0.3;
+const EXPECTED_TIME: f64 = 0.5;
 const EXPECTED_FAR: f64 = 1.2;
 
 /// The same factor for smaller numbers than one that keeps the tolerance. With half of it, sections get up to five extrema
