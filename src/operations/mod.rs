@@ -21,6 +21,7 @@ mod end_change;
 mod error;
 mod features;
 mod fit_piece;
+mod fit_warnings;
 mod floats;
 mod handle;
 mod harmony_json;
