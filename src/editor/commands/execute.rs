@@ -232,22 +232,19 @@ impl Editor {
             Command::DeleteCurve => format!("{} deleted\n", items::named(document, &change.taken)),
             _ => String::new(),
         };
-        let before = document.clone();
         let note = self.apply(&change.label, change.edits)?;
-        let crosses = command == Command::TogglePeriodic
-            && items::cross_now(&before, self.document(), &change.taken);
         if command == Command::Isolate {
             self.hand.isolated = change.taken;
         }
         let lines = with_lines(deleted + &note.text, &change.left_out.join("\n"));
-        let lines = match crosses {
-            true => with_lines(items::CROSSES.to_owned(), &lines),
-            false => lines,
+        let lines = match change.warning {
+            Some(warning) => with_lines(warning.to_owned(), &lines),
+            None => lines,
         };
         Ok(match lines.is_empty() {
             true => note,
             false => Note {
-                warns: crosses,
+                warns: change.warning.is_some(),
                 ..Note::done(lines)
             },
         })

@@ -3,7 +3,7 @@
 use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
 use crate::editor::polygon_edits::periodicity;
 use crate::editor::reply::Refusal;
-use crate::geometry::curve_crossing;
+use crate::geometry::{FloatPolygon, curve_crossing};
 use crate::io::counted_items;
 
 /// The most names of items that a message lists.
@@ -19,7 +19,13 @@ pub(super) struct Change {
     pub taken: Vec<CurveId>,
     /// Why the others are left out, a sentence each.
     pub left_out: Vec<String>,
+    /// What the user may not want.
+    pub warning: Option<&'static str>,
 }
+
+/// The warning that a curve which closes crosses itself.
+const CROSSES: &str = "The curve crosses itself: it closes round all vertices of its polygon. \
+     Close curve joins its ends instead";
 
 impl Change {
     /// Make the edit of each item. Those without one are left out; without any edit the first reason counts.
@@ -46,6 +52,7 @@ impl Change {
             edits,
             taken,
             left_out,
+            warning: None,
         })
     }
 
@@ -121,28 +128,29 @@ impl Change {
             (true, _) => format!("Make {} periodic", noun(document, taken)),
             (false, _) => format!("Open {}", noun(document, taken)),
         };
-        Self::of(changes, label, |id| {
+        let change = Self::of(changes, label, |id| {
             let curve = document.curve(id).ok_or("There is no curve")?;
             curve.check_editable().map_err(|error| error.to_string())?;
             let edit = periodicity(id, curve, periodic);
             edit.map_err(|error| format!("{}: {error}", quoted(&curve.name)))
+        })?;
+        let mut edits = change.edits.iter();
+        let crosses = periodic && edits.any(|edit| makes_crossing(document, edit));
+        Ok(Self {
+            warning: crosses.then_some(CROSSES),
+            ..change
         })
     }
 }
 
-/// The warning that a curve which closes crosses itself.
-pub(super) const CROSSES: &str = "The curve crosses itself: it closes round all vertices of its polygon. \
-     Close curve joins its ends instead";
-
-/// Whether a planar curve among items crosses itself, and did not before.
-pub(super) fn cross_now(before: &Document, now: &Document, items: &[CurveId]) -> bool {
-    let crosses = |document: &Document, id: CurveId| {
-        let polygon = document.curve(id).map(|curve| &curve.polygon);
-        let planar = polygon.filter(|polygon| polygon.is_planar());
-        planar.and_then(curve_crossing).is_some()
+/// Whether an edit gives a planar curve a polygon with which it crosses itself, and did not before.
+fn makes_crossing(document: &Document, edit: &Edit) -> bool {
+    let Edit::Renumber { curve, polygon, .. } = edit else {
+        return false;
     };
-    let mut items = items.iter();
-    items.any(|id| crosses(now, *id) && !crosses(before, *id))
+    let crosses = |polygon: &FloatPolygon| polygon.is_planar() && curve_crossing(polygon).is_some();
+    let before = document.curve(*curve).map(|curve| &curve.polygon);
+    crosses(polygon) && !before.is_some_and(crosses)
 }
 
 /// The items that are hidden, of those that were.

@@ -173,7 +173,11 @@ impl OperationInProgress {
 
     /// The curves that the operation has made beside inputs that it left as they were.
     pub fn made_curves(&self, now: &Document) -> Vec<CurveId> {
-        if self.input.all_curves().any(|input| is_changed(input, now)) {
+        if self
+            .input
+            .all_curves()
+            .any(|(id, curve)| is_changed((*id, curve), now))
+        {
             return Vec::new();
         }
         let before = self.input.document();
@@ -219,7 +223,8 @@ impl OperationInProgress {
         now: &Document,
     ) -> Vec<Arc<Curve>> {
         let inputs = self.input.all_curves();
-        let changed = inputs.filter(|input| Some(input.0) != active && is_changed(input, now));
+        let changed =
+            inputs.filter(|(id, curve)| Some(*id) != active && is_changed((*id, curve), now));
         changed.map(|(_, curve)| curve.clone()).collect()
     }
 
@@ -228,13 +233,10 @@ impl OperationInProgress {
         let Some(run) = self.finished().filter(|run| !run.is_reached()) else {
             return Vec::new();
         };
-        let before = self.input.document();
-        let changed = now.curves().filter(|(id, curve)| {
-            let old = before.curve(*id);
-            !old.is_some_and(|old| Arc::ptr_eq(old, curve))
-        });
+        let (before, reached) = (self.input.document(), run.reached_items());
+        let changed = now.curves().filter(|it| is_changed(*it, before));
         let ids = changed.map(|(id, _)| id);
-        ids.filter(|id| !run.reached_items().contains(id)).collect()
+        ids.filter(|id| !reached.contains(id)).collect()
     }
 
     /// The marks of the last run on the canvas.
@@ -251,8 +253,11 @@ impl OperationInProgress {
     }
 }
 
-fn is_changed((id, curve): &(CurveId, Arc<Curve>), now: &Document) -> bool {
-    !now.curve(*id).is_some_and(|now| Arc::ptr_eq(now, curve))
+/// Whether a curve is another one in a document, or not there.
+fn is_changed((id, curve): (CurveId, &Arc<Curve>), other: &Document) -> bool {
+    !other
+        .curve(id)
+        .is_some_and(|other| Arc::ptr_eq(other, curve))
 }
 
 impl Run {
