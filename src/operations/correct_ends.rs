@@ -260,15 +260,14 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         Some(polygon) => {
             let turned = turned_over(&curve.polygon, &polygon);
             let before = &curve.polygon;
-            let features = (proved(before, progress)?, proved(&polygon, progress)?);
-            let features = [&features.0, &features.1];
-            let cusp = gains_cusp([before, &polygon], features);
+            let features = proved([before, &polygon], progress)?;
+            let cusp = gains_cusp([before, &polygon], &features);
             let cusp_told = cusp.then(|| {
                 "A bend is nearly a cusp now: choose another way in “Disturb least”, or refine first".to_owned()
             });
             let mut warnings: Vec<String> = cusp_told.into_iter().collect();
             warnings.extend(warnings_of_change(curve, &polygon, turned.as_deref())?);
-            let lost = remark_on_lost_inflections(before.is_planar(), features);
+            let lost = remark_on_lost_inflections(before.is_planar(), &features);
             warnings.extend(lost);
             let is_wrong = turned.is_some() || cusp || is_another(curve, &polygon)?;
             let outcome = corrected(id, curve, polygon)?;

@@ -65,12 +65,8 @@ pub(super) fn changed(
     match given(values, &TOLERANCE) {
         None => {
             let changed = polygon.with_degree(degree)?;
-            let features = (
-                proved(polygon, progress)?,
-                proved(&changed.polygon, progress)?,
-            );
-            let features = [&features.0, &features.1];
-            let lost = remark_on_lost_inflections(polygon.is_planar(), features);
+            let features = proved([polygon, &changed.polygon], progress)?;
+            let lost = remark_on_lost_inflections(polygon.is_planar(), &features);
             let far = far(polygon, &by_distance(changed.clone(), polygon, progress));
             let mut outcome = instead(input, changed)?;
             outcome.warnings.extend(far.into_iter().chain(lost));

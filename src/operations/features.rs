@@ -126,24 +126,26 @@ impl FeatureComparison {
     }
 }
 
-/// Prove the features of a curve.
+/// Prove the features of a curve before and after a change.
 ///
 /// # Errors
 /// [`OperationError::Cancelled`].
 pub(super) fn proved(
-    polygon: &FloatPolygon,
+    polygons: [&FloatPolygon; 2],
     progress: &Progress,
-) -> Result<Features, OperationError> {
-    let features = Features::proved(polygon, |_| !progress.is_cancelled());
-    features.ok_or(OperationError::Cancelled)
+) -> Result<[Features; 2], OperationError> {
+    let [before, after] =
+        polygons.map(|polygon| Features::proved(polygon, |_| !progress.is_cancelled()));
+    match (before, after) {
+        (Some(before), Some(after)) => Ok([before, after]),
+        _ => Err(OperationError::Cancelled),
+    }
 }
 
 /// Say that a curve that took another's place has lost inflections, in space zeros of the torsion.
-pub(super) fn remark_on_lost_inflections(
-    planar: bool,
-    [before, after]: [&Features; 2],
-) -> Option<String> {
-    let [was, now] = [before, after]
+pub(super) fn remark_on_lost_inflections(planar: bool, features: &[Features; 2]) -> Option<String> {
+    let [was, now] = features
+        .each_ref()
         .map(|features| features.count(Feature::Inflection) + features.count(Feature::TorsionZero));
     let kind = match planar {
         true => "Inflections",
@@ -153,7 +155,7 @@ pub(super) fn remark_on_lost_inflections(
 }
 
 /// Whether a curve that took another's place bends so sharply somewhere that it seems to have a cusp there.
-pub(super) fn gains_cusp([before, after]: [&FloatPolygon; 2], features: [&Features; 2]) -> bool {
+pub(super) fn gains_cusp([before, after]: [&FloatPolygon; 2], features: &[Features; 2]) -> bool {
     let least = ROUND / BezierPolygon::from_float(before).size();
     let before = features[0].largest_curvature(before).max(least);
     before.is_finite() && features[1].largest_curvature(after) > CUSP * before

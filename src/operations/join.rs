@@ -431,7 +431,8 @@ impl Joining<'_> {
         Ok((outcome, deviation))
     }
 
-    /// Join by a bridge, which is not reached if it goes a long way round; says whether the parts fit it as they are, without a knuckle.
+    /// Join by a bridge, which is not reached if it goes a long way round. Says whether the parts fit it as they are and
+    /// nothing is to be warned of.
     fn bridge(&self) -> Result<(Outcome, bool), OperationError> {
         let [(_, first), (_, second)] = self.parts;
         let moves = self.values.switch(&MOVE_SECOND);
@@ -483,13 +484,12 @@ impl Joining<'_> {
         let knuckle = bridge::knuckle(&found, polygons).filter(|_| fault.is_none());
         outcome.warnings.extend(knuckle);
         let size = BezierPolygon::from_float(&second.polygon).size();
-        outcome
-            .warnings
-            .extend((changed.deviation > FAR * size).then(|| {
-                let moved = significant(changed.deviation, 3);
-                let degree = first.polygon.degree();
-                format!("The second curve gets the degree {degree} and moves by {moved}: select it first, or change a degree")
-            }));
+        if changed.deviation > FAR * size {
+            let (degree, moved) = (first.polygon.degree(), significant(changed.deviation, 3));
+            outcome.warnings.push(format!(
+                "The second curve gets the degree {degree} and moves by {moved}: begin with it, or raise the degree"
+            ));
+        }
         if let Some(fault) = &fault {
             let failed = Requirement::Failed { left: None };
             outcome.requirements = vec![(self.parts[0].0, vec![failed])];

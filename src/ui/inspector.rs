@@ -234,11 +234,18 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
 fn ends_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     let periodic = curve.polygon.is_periodic();
     ui.spacing_mut().item_spacing.x = STEP;
-    let helps = [
-        "The curve ends where its first and last segments do",
-        "The curve closes round all vertices of its polygon (Close curve joins the ends instead)",
-    ];
-    for ((name, wanted), help) in [("Open", false), ("Periodic", true)].into_iter().zip(helps) {
+    for (name, wanted, help) in [
+        (
+            "Open",
+            false,
+            "The curve ends where its first and last segments do",
+        ),
+        (
+            "Periodic",
+            true,
+            "The curve closes round all vertices of its polygon",
+        ),
+    ] {
         let response = ui.add(Button::selectable(periodic == wanted, name));
         let response = response.on_hover_text(help);
         if response.clicked() && periodic != wanted {
