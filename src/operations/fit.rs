@@ -420,6 +420,7 @@ fn asked(points: usize, values: &Values) -> Result<PlaneFit, OperationError> {
     Ok(PlaneFit {
         degree: values.whole(&DEGREE),
         periodic: values.switch(&PERIODIC),
+        of_curve: false,
         count: vertices(points, values)?,
         most: given_count(values, &MOST),
         extrema: given_count(values, &EXTREMA).map_or(Extrema::Fewest, Extrema::Exactly),

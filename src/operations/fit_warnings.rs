@@ -1,5 +1,7 @@
 //! What the user may not want of a curve that is fitted to points.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 use crate::geometry::fitting::{Fitted, PlaneFit, SharpBend};
@@ -7,6 +9,12 @@ use crate::geometry::{BezierPolygon, End, FloatPolygon, significant};
 
 /// A vertex farther off the curve than so many times its size is named.
 const LONG_TAIL: f64 = 5.0;
+
+/// A polygon that turns by more than this at a vertex, in radians, is told.
+const FOLD: f64 = 2.0 * PI / 3.0;
+
+/// What to do about a polygon that can hardly be dragged.
+const ANOTHER: &str = "another number of vertices may be handier";
 
 /// With more noise than this, by the size, circles through three points tell no bend.
 const NOISY: f64 = 5e-4;
@@ -39,9 +47,9 @@ pub(super) fn warnings(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
         true => dives(asked, &found.polygon),
         false => Vec::new(),
     };
-    let tails = tails(&found.polygon);
+    let unhandy = [tails(&found.polygon), fold(&found.polygon)];
     let told = crossing.into_iter().chain(bend).chain(dives);
-    told.chain(tails).collect()
+    told.chain(unhandy.into_iter().flatten()).collect()
 }
 
 /// Say which ends bend much more than the rest of the curve, if their curvature is not asked for.
@@ -92,6 +100,20 @@ fn told_bend(bend: SharpBend, size: f64) -> String {
     format!("A bend has the radius {own} at {x}, {y}, where the points {shown}: {advice}")
 }
 
+/// Name the vertex where the polygon turns back most: nobody could drag it there.
+fn fold(polygon: &FloatPolygon) -> Option<String> {
+    let three = polygon.vertices().windows(3);
+    let turns = three.map(|three| match three {
+        [a, b, c] => (*b - *a).angle_between(*c - *b),
+        _ => 0.0,
+    });
+    let (before, turn) = turns.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (turn > FOLD).then(|| {
+        let (vertex, turn) = (before + 1, turn.to_degrees().round());
+        format!("The polygon turns back by {turn}° at vertex {vertex}: {ANOTHER}")
+    })
+}
+
 /// Name a vertex that lies far off the curve: it can hardly be dragged.
 fn tails(polygon: &FloatPolygon) -> Option<String> {
     let places = (0..=4 * polygon.segments()).map(|it| polygon.point(it as f64 / 4.0));
@@ -103,6 +125,6 @@ fn tails(polygon: &FloatPolygon) -> Option<String> {
     let (vertex, farthest) = all.max_by(|a, b| a.1.total_cmp(&b.1))?;
     (farthest > LONG_TAIL).then(|| {
         let sizes = significant(farthest, 2);
-        format!("Vertex {vertex} lies {sizes} times the curve's size away: another number of vertices may be handier")
+        format!("Vertex {vertex} lies {sizes} times the curve's size away: {ANOTHER}")
     })
 }

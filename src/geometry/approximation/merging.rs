@@ -330,6 +330,7 @@ impl Search<'_> {
             exact_ends: [true; 2],
             directions: self.ends().map(|(_, end)| Some(end.direction?.truncate())),
             outliers: Some(Vec::new()),
+            of_curve: true,
             ..PlaneFit::default()
         };
         let found = fit_plane(&points, &asked, progress)?;

@@ -11,6 +11,11 @@ use crate::geometry::progress::Progress;
 /// The weight of second differences of the logarithms of legs, by points a vertex.
 const LEGS: f64 = 1e-3;
 
+/// The weight of those of the outer legs and of their directions: few points tell how a curve ends. So many differences
+/// more than the degree are outer ones, and the middle one never is.
+const OUTER_LEGS: f64 = 1.0;
+const OUTER: usize = 3;
+
 /// The share of a point's offset along the curve that damps steps.
 const TANGENT: f64 = 0.03;
 
@@ -68,7 +73,7 @@ pub(super) struct Descended {
 
 /// Step down from a start, at most so many steps, to where no point is farther than the limit.
 ///
-/// Minimises ½ Σ w (offset across the curve)² / σ² with legs that grow evenly, σ the root mean square, under
+/// Minimises ½ Σ w (offset across the curve)² / σ² with legs that go on evenly, σ the root mean square, under
 /// the signs of the start, whose cuts slide to where less presses. A solution's signs are its proof. A limit that
 /// cannot be kept does not count in the end: points beyond it are as near as its price makes them.
 pub(super) fn descend(
@@ -100,6 +105,14 @@ struct Measured {
     conditions: Conditions,
     /// The objective.
     value: f64,
+}
+
+/// How unevenly three legs go on, times the root of its weight.
+struct LegBend {
+    /// The first of the four vertices.
+    first: usize,
+    value: f64,
+    gradient: [DVec2; LEG_REACH],
 }
 
 /// What one quadratic program is made of, but for its damping.
@@ -204,12 +217,8 @@ impl Descent<'_> {
             .map(|(offset, weight)| weight * offset.length_squared())
             .sum();
         let bends = self.leg_bends(&curve.vertices);
-        let even: f64 = bends.iter().map(|(bend, _)| bend * bend).sum();
-        0.5 * near / (unit * unit) + 0.5 * self.leg_weight() * even
-    }
-
-    fn leg_weight(&self) -> f64 {
-        LEGS * self.sum / self.problem.splines.count as f64
+        let even: f64 = bends.iter().map(|it| it.value * it.value).sum();
+        0.5 * near / (unit * unit) + 0.5 * even
     }
 
     fn legs(&self, vertices: &[DVec2]) -> Vec<f64> {
@@ -227,24 +236,27 @@ impl Descent<'_> {
         (0..legs).map(move |leg| vertices[(leg + 1) % count] - vertices[leg])
     }
 
-    /// The second differences of the logarithms of legs, with their gradients by four vertices.
-    fn leg_bends(&self, vertices: &[DVec2]) -> Vec<(f64, [DVec2; LEG_REACH])> {
+    /// The second differences of the logarithms of legs, and those of the directions of outer ones.
+    fn leg_bends(&self, vertices: &[DVec2]) -> Vec<LegBend> {
+        let splines = &self.problem.splines;
         let legs: Vec<DVec2> = self.legs_of(vertices).collect();
         let count = legs.len();
-        let bends = if self.problem.splines.periodic {
-            count
-        } else {
-            count.saturating_sub(2)
+        let bends = match splines.periodic {
+            true => count,
+            false => count.saturating_sub(2),
         };
+        let outer = (splines.degree + OUTER).min(bends.saturating_sub(1) / 2);
+        let calms_ends = self.problem.data.calms_ends;
+        let by_points = self.sum / splines.count as f64;
         let bend = |first: usize| {
             let three = [0, 1, 2].map(|it| legs[(first + it) % count]);
-            let squares = three.map(|leg| leg.length_squared().max(f64::MIN_POSITIVE));
-            let logarithms = squares.map(|square| 0.5 * square.ln());
-            let [a, b, c] = [0, 1, 2].map(|it| three[it] / squares[it]);
-            let value = logarithms[0] - 2.0 * logarithms[1] + logarithms[2];
-            (value, [-a, a + 2.0 * b, -2.0 * b - c, c])
+            let is_outer = calms_ends && (first < outer || first + outer >= bends);
+            let weight = if is_outer { OUTER_LEGS } else { LEGS };
+            let factor = (weight * by_points).sqrt();
+            let turn = is_outer.then(|| LegBend::of_directions(first, three, factor));
+            [Some(LegBend::of_lengths(first, three, factor)), turn]
         };
-        (0..bends).map(bend).collect()
+        (0..bends).flat_map(bend).flatten().collect()
     }
 
     /// The mean of the legs at each vertex, in which its moves are counted.
@@ -297,15 +309,10 @@ impl Descent<'_> {
         }
         let mut legs = Rows::new(LEG_REACH);
         let mut off_legs = Vec::new();
-        let leg_factor = self.leg_weight().sqrt();
-        for (first, (bend, gradient)) in self.leg_bends(vertices).into_iter().enumerate() {
-            legs.push(
-                first,
-                gradient
-                    .into_iter()
-                    .flat_map(|it| (leg_factor * it).to_array()),
-            );
-            off_legs.push(leg_factor * bend);
+        for bend in self.leg_bends(vertices) {
+            let gradient = bend.gradient.into_iter();
+            legs.push(bend.first, gradient.flat_map(|it| it.to_array()));
+            off_legs.push(bend.value);
         }
         let mut matrix = BandMatrix::new(layout);
         let mut gradient = vec![0.0; layout.unknowns()];
@@ -514,6 +521,38 @@ impl Descent<'_> {
             .all(|(_, missed)| missed.abs() < END_TOLERANCE);
         held && now.conditions.hold()
     }
+}
+
+impl LegBend {
+    /// The second difference of the logarithms of the legs.
+    fn of_lengths(first: usize, legs: [DVec2; 3], factor: f64) -> Self {
+        let [a, b, c] = legs.map(|leg| 0.5 * square(leg).ln());
+        let slopes = legs.map(|leg| leg / square(leg));
+        Self::new(first, a - 2.0 * b + c, slopes, factor)
+    }
+
+    /// The second difference of the directions of the legs.
+    fn of_directions(first: usize, legs: [DVec2; 3], factor: f64) -> Self {
+        let [a, b, c] = legs;
+        let turn = |from: DVec2, to: DVec2| from.perp_dot(to).atan2(from.dot(to));
+        let slopes = legs.map(|leg| leg.perp() / square(leg));
+        Self::new(first, turn(b, c) - turn(a, b), slopes, factor)
+    }
+
+    /// `slopes` are the derivatives of what is differenced, by each leg.
+    fn new(first: usize, value: f64, slopes: [DVec2; 3], factor: f64) -> Self {
+        let [a, b, c] = slopes;
+        let gradient = [-a, a + 2.0 * b, -2.0 * b - c, c];
+        Self {
+            first,
+            value: factor * value,
+            gradient: gradient.map(|it| factor * it),
+        }
+    }
+}
+
+fn square(leg: DVec2) -> f64 {
+    leg.length_squared().max(f64::MIN_POSITIVE)
 }
 
 impl Model {

@@ -281,6 +281,7 @@ impl Fit<'_> {
                 ends: &prepared.ends,
                 held: &[],
                 mirror: self.asked.mirror,
+                calms_ends: !self.asked.periodic && !self.asked.of_curve,
             },
             degree: self.asked.degree,
             periodic: self.asked.periodic,
@@ -456,20 +457,52 @@ impl Fit<'_> {
 
     /// The nearest fit with just so many extrema, and what it and those that begin it reach.
     fn exactly(&self, extrema: usize, is_shown: bool) -> (Option<Level>, Vec<TradeOff>) {
-        let levels = self.task(
-            extrema,
-            self.asked.tolerance.map(|_| self.prepared.tolerance),
-        );
+        let tolerance = self.asked.tolerance.map(|_| self.prepared.tolerance);
+        let task = self.task(extrema, tolerance);
         let keeps = self.asked.tolerance.is_some();
+        let find = |fewer: &[Level], is_shown: bool| {
+            let levels = task.levels(fewer, &|known| {
+                if is_shown {
+                    self.show_chosen(known, keeps);
+                }
+            });
+            self.refined_choice(extrema, levels, keeps)
+        };
         let (fewer, mut reached) = self.ladder(extrema);
-        let levels = levels.levels(&fewer, &|known| {
-            if is_shown {
-                self.show_chosen(known, keeps);
+        let (mut level, mut trade_off) = find(&fewer, is_shown);
+        let is_kept = |it: &Level| keeps && it.largest <= self.prepared.tolerance;
+        if extrema < LADDER && !level.as_ref().is_some_and(is_kept) {
+            let (less, reached_with_less) = self.rung_below(extrema);
+            if !less.is_empty() {
+                let (other, of_other) = find(&less, false);
+                let both = level.iter().chain(&other).cloned().collect();
+                let is_other =
+                    self.chosen(both, keeps).map(|it| it.rms) != level.as_ref().map(|it| it.rms);
+                if is_other {
+                    (level, trade_off) = (other, of_other);
+                }
             }
-        });
-        let (level, trade_off) = self.refined_choice(extrema, levels, keeps);
+            reached.extend(reached_with_less);
+        }
         reached.extend(trade_off);
         (level, reached)
+    }
+
+    /// Levels with one extremum less, or two where the number is even, and what they reach.
+    fn rung_below(&self, extrema: usize) -> (Vec<Level>, Option<TradeOff>) {
+        let (step, _) = self.numbers();
+        let Some(rung) = extrema.checked_sub(step) else {
+            return (Vec::new(), None);
+        };
+        let progress = self.progress.limited(LADDER_TIME);
+        let task = Task {
+            progress: &progress,
+            ..self.task(rung, None)
+        };
+        let levels = task.levels(&[], &|_| ());
+        let reached = levels.last().map(|nearest| self.trade_off(rung, nearest));
+        let nearest = levels.into_iter().rev().take(RELEASED);
+        (nearest.collect(), reached)
     }
 
     /// Levels with fewer extrema, which begin those with many: patterns of smoothed curves alone lead to worse ones.
@@ -652,8 +685,16 @@ impl Fit<'_> {
             let levels = task.levels(&fewer, &|_| ());
             fewer.extend(levels.last().cloned());
             search.known.insert(extrema, levels.clone());
-            let (_, trade_off) = self.refined_choice(extrema, levels, true);
+            let (found, trade_off) = self.refined_choice(extrema, levels, true);
             search.trade_off.extend(trade_off);
+            // Where nothing keeps the tolerance, the nearest counts.
+            let nearest = search
+                .best
+                .as_ref()
+                .map_or(0.0, |it| it.largest.max(tolerance));
+            if found.as_ref().is_some_and(|it| it.largest < nearest) && nearest > tolerance {
+                search.best = found;
+            }
         }
     }
 
@@ -730,7 +771,7 @@ impl Fit<'_> {
         }
     }
 
-    /// Of ever nearer levels the last one if there is a tolerance, or else the one that explains the points best
+    /// Of ever nearer levels the first handy one that keeps the tolerance if there is one, or else the one that explains the points best
     /// for its size (generalised cross validation: Craven and Wahba, 1979).
     fn chosen(&self, levels: Vec<Level>, is_for_tolerance: bool) -> Option<Level> {
         let tolerance = self.prepared.tolerance;
@@ -742,8 +783,10 @@ impl Fit<'_> {
             let share = level.splines.count as f64 / self.prepared.counting as f64;
             level.rms.powi(2) / (1.0 - share.min(0.9)).powi(2)
         };
-        let kept = |level: &Level| is_for_tolerance && level.largest <= tolerance;
-        if let Some(level) = levels.iter().find(|level| kept(level)) {
+        let kept = |level: &&Level| is_for_tolerance && level.largest <= tolerance;
+        let task = self.task(0, None);
+        let handy = levels.iter().filter(kept).find(|it| task.is_handy(it));
+        if let Some(level) = handy.or_else(|| levels.iter().find(kept)) {
             return Some(level.clone());
         }
         match is_for_tolerance {

@@ -1,5 +1,7 @@
 //! Fits with a wished number of extrema, from few vertices to many.
 
+use std::f64::consts::PI;
+
 use glam::{DVec2, DVec3};
 
 use super::descent::descend;
@@ -48,6 +50,11 @@ const MANY: usize = 80;
 /// An error above this share of the one before is no gain; so many of them in a row end the search.
 const GAIN: f64 = 0.97;
 const STALE: usize = 3;
+
+/// A vertex farther than so many sizes from the points can hardly be dragged, nor can legs that turn back by more than
+/// this angle, in radians.
+const FAR_VERTEX: f64 = 3.0;
+const FOLD: f64 = 2.0 * PI / 3.0;
 
 /// An error below this share of the size is rounding.
 const EXACT: f64 = 1e-9;
@@ -200,7 +207,7 @@ impl<'a> Task<'a> {
                         break;
                     }
                 }
-                if best.largest <= tolerance && self.count.is_none() {
+                if best.largest <= tolerance && self.count.is_none() && self.is_handy(best) {
                     break;
                 }
             }
@@ -217,6 +224,21 @@ impl<'a> Task<'a> {
             };
         }
         levels
+    }
+
+    /// Whether all vertices lie near the points, and no leg turns back. Curves with few segments have such polygons.
+    pub(super) fn is_handy(&self, level: &Level) -> bool {
+        let points = self.data.points.iter().copied();
+        let low = points.clone().fold(DVec2::INFINITY, DVec2::min);
+        let high = points.fold(DVec2::NEG_INFINITY, DVec2::max);
+        let far = FAR_VERTEX * low.distance(high);
+        let vertices = &level.start.curve.vertices;
+        let is_near = |vertex: &DVec2| vertex.distance(vertex.clamp(low, high)) <= far;
+        let folds = |three: &[DVec2]| match three {
+            [a, b, c] => (*b - *a).angle_to(*c - *b).abs() > FOLD,
+            _ => false,
+        };
+        vertices.iter().all(is_near) && !vertices.windows(3).any(folds)
     }
 
     /// The fit with any number of extrema: least squares with a little fairness.

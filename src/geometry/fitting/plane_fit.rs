@@ -54,6 +54,8 @@ pub struct PlaneFit {
     pub mirror: Option<SymmetryAxis>,
     /// Whether more numbers of extrema are tried than it takes, to tell what each of them reaches.
     pub lists_trade_off: bool,
+    /// Whether the points are samples of a curve. They tell how it ends; other points hardly do.
+    pub of_curve: bool,
     /// How much each point counts; `None` if all count the same. Those of weight 0 do not count.
     pub weights: Option<Vec<f64>>,
 }

@@ -65,6 +65,8 @@ pub(super) struct Data<'a> {
     pub(super) held: &'a [HeldVertex],
     /// The axis in which the curve is its own mirror image.
     pub(super) mirror: Option<SymmetryAxis>,
+    /// Whether the outer legs go on evenly: few points tell how a curve ends, the samples of a curve do.
+    pub(super) calms_ends: bool,
 }
 
 impl Data<'_> {
@@ -406,6 +408,7 @@ impl<'a> Problem<'a> {
             ends: &[],
             held: &[],
             mirror: self.data.mirror,
+            calms_ends: false,
         };
         let places: Vec<f64> = shares.iter().map(|share| share * end).collect();
         let share = end / old_end;

@@ -71,6 +71,7 @@ pub(in crate::geometry) fn refit(
             ends: &ends,
             held: &held,
             mirror: None,
+            calms_ends: false,
         },
         degree: polygon.degree(),
         periodic: polygon.is_periodic(),
