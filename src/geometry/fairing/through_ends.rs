@@ -2,12 +2,12 @@
 //!
 //! A float polygon runs beyond its curve. Between the points given first and last, q₀ and q_m, the
 //! others are vertices as they are; in place of q₀ and of q_m come ⌊n/2⌋ + 1 vertices each. Those
-//! make Σ|Δᵏ Pᵢ|² over the whole polygon as small as possible while
+//! make Σ|Δ³Pᵢ|² + 0.3 Σ|Δ²Pᵢ|² over the whole polygon as small as possible while
 //!
 //!   Σ_{i<n} bᵢ Pᵢ = q₀,   Σ_{i<n} bᵢ P_{N−n+i} = q_m,   bᵢ the basis of degree n at the end knot,
 //!
-//! with k = 3, or 2 where only two points are given: then the polygon is straight and evenly
-//! divided.
+//! without the third differences where only two points are given: then the polygon is straight and
+//! evenly divided. Third differences alone would let the ends hook, second ones would flatten them.
 
 use glam::DVec3;
 
@@ -16,8 +16,8 @@ use crate::geometry::basis::uniform_basis_derivative;
 use crate::geometry::error::{MAX_DEGREE, PolygonError};
 use crate::geometry::float_polygon::FloatPolygon;
 
-/// The order k of the differences, if there are points enough.
-const ORDER: usize = 3;
+/// The orders of the differences, if there are points enough, with the weights of their squares.
+const ORDERS: [(usize, f64); 2] = [(2, 0.3), (3, 1.0)];
 
 /// Repetitions that remove the rounding errors of the conditions.
 const REFINEMENTS: usize = 3;
@@ -145,18 +145,23 @@ impl Layout {
 
     /// The differences in which an added vertex occurs.
     fn differences(&self) -> Vec<Vec<(usize, f64)>> {
-        let order = ORDER.min(self.between + 2);
-        let stencil = difference_stencil(order);
-        let places = 0..self.count().saturating_sub(order);
-        let touches =
-            |first: &usize| (*first..=first + order).any(|vertex| self.column(vertex).is_some());
-        let row = |first: usize| {
-            let entries = stencil.iter().enumerate();
-            entries
-                .map(|(index, share)| (first + index, *share))
-                .collect()
+        let orders = ORDERS.into_iter();
+        let orders = orders.filter(|(order, _)| *order <= self.between + 2);
+        let rows = orders.flat_map(|(order, weight)| {
+            let stencil = difference_stencil(order);
+            let factor = weight.sqrt();
+            let places = 0..self.count().saturating_sub(order);
+            places.map(move |first| {
+                let entries = stencil.iter().enumerate();
+                let entries = entries.map(|(index, share)| (first + index, factor * *share));
+                entries.collect()
+            })
+        });
+        let touches = |row: &Vec<(usize, f64)>| {
+            let mut vertices = row.iter();
+            vertices.any(|(vertex, _)| self.column(*vertex).is_some())
         };
-        places.filter(touches).map(row).collect()
+        rows.filter(touches).collect()
     }
 
     /// What a combination of vertices has of the added ones, by their columns.
