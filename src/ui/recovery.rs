@@ -3,8 +3,8 @@
 use std::time::SystemTime;
 
 use eframe::egui::{
-    Align, Align2, Context, Id, Label, Layout, Pos2, Rect, RichText, ScrollArea, Sense, Shape,
-    Stroke, Ui, Vec2, Window, vec2,
+    Align, Align2, Button, Context, Id, Label, Layout, Pos2, Rect, RichText, ScrollArea, Sense,
+    Shape, Stroke, Ui, Vec2, Window, vec2,
 };
 use glam::DVec2;
 
@@ -18,6 +18,9 @@ const PICTURE: Vec2 = vec2(104.0, 64.0);
 
 /// The width of the list.
 const WIDTH: f32 = 460.0;
+
+/// The width of the button that discards a document.
+const DISCARD: f32 = 96.0;
 
 /// The height from which on the list scrolls.
 const HEIGHT: f32 = 320.0;
@@ -99,9 +102,7 @@ fn row_ui(ui: &mut Ui, recoverable: &Recoverable) -> Option<Choice> {
         widgets::at_right(ui, |ui| {
             // Each row's buttons have names of their own.
             let [title, lines] = texts(recoverable);
-            let discard = ui.button("Discard");
-            let discard = discard.accessible_name(format!("Discard {title}"));
-            if discard.clicked() {
+            if discard_ui(ui, recoverable.id, &title) {
                 choice = Some(Choice::Discard(recoverable.id));
             }
             if recoverable.content.is_ok() {
@@ -125,6 +126,23 @@ fn row_ui(ui: &mut Ui, recoverable: &Recoverable) -> Option<Choice> {
         });
     });
     choice
+}
+
+/// Show the button that discards a document at the second press: nothing brings it back.
+fn discard_ui(ui: &mut Ui, id: usize, title: &str) -> bool {
+    let asked = Id::unique("discard").with(id);
+    let is_asked = ui.data(|data| data.get_temp(asked)).unwrap_or(false);
+    let (verb, colour) = match is_asked {
+        true => ("Really discard", Tokens::of(ui).error),
+        false => ("Discard", Tokens::of(ui).text),
+    };
+    let text = RichText::new(verb).color(colour);
+    // The buttons beside it stay where they are.
+    let button = ui.add(Button::new(text).min_size(vec2(DISCARD, 0.0)));
+    let button = button.accessible_name(format!("{verb} {title}"));
+    let is_pressed = button.clicked();
+    ui.data_mut(|data| data.insert_temp(asked, is_pressed || is_asked));
+    is_pressed && is_asked
 }
 
 /// The name and the facts of a document.

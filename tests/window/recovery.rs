@@ -89,6 +89,8 @@ fn recovered_documents_are_listed_opened_and_discarded() {
     click(&mut window, "Cancel");
     assert!(is_offered(&window));
     click(&mut window, "Discard Untitled");
+    assert!(is_offered(&window));
+    click(&mut window, "Really discard Untitled");
     assert!(!is_offered(&window));
     press(&mut window, Modifiers::COMMAND, Key::S);
     assert!(!is_modified(&window));
@@ -123,6 +125,8 @@ fn a_damaged_document_says_so_and_cannot_be_opened() {
     let opens = window.query_by_label("Open Damaged document");
     assert!(opens.is_none());
     click(&mut window, "Discard Damaged document");
+    assert!(is_offered(&window));
+    click(&mut window, "Really discard Damaged document");
     assert!(!is_offered(&window));
 }
 

@@ -29,8 +29,9 @@ const SAVES: f64 = 2.0;
 /// How far a vertex may be from a whole number of nudges, in nudges.
 const NUDGE_TOLERANCE: f64 = 1e-6;
 
-/// The button that gives up what is offered.
+/// The button that gives up what is offered, and the same after one press.
 const DISCARD: &str = "Discard work.batten";
+const REALLY_DISCARD: &str = "Really discard work.batten";
 
 /// A document whose edits are counted: each nudge moves all vertices by the same step.
 struct Work {
@@ -227,6 +228,7 @@ impl Work {
             ensure!(saved == autosave, "{saved} nudges instead of {autosave}");
         } else {
             window.click(DISCARD)?;
+            window.click(REALLY_DISCARD)?;
         }
         ensure!(!window.has(DISCARD)?, "it is still offered");
         Ok(())
