@@ -74,15 +74,19 @@ pub(super) fn remarks(found: &Bridged) -> Vec<String> {
 /// between two arcs four lengths apart it is 5.4 times, across a gap of 1 % with a corner of 3° 13 times.
 const SHARPEST: f64 = 6.0;
 
-/// A bridge that bends more than so many times as sharply as its parts, or as the turn over the gap needs, is seen as
-/// a knuckle.
-const SHARPER: f64 = 2.0;
+/// A bridge that bends more than so many times as sharply as its ends, or as the turn over the gap needs, is seen as a
+/// knuckle.
+const SHARPER: f64 = 3.0;
 
-/// A gap of at most this share of the parts' size is short: across a longer one a bend is a matter of taste, and seen.
+/// A gap of at most this share of the parts' size is short: across a longer one a bend is a matter of taste, and seen,
+/// unless it is so many times sharper still.
 const SHORT: f64 = 0.05;
+const CUSP: f64 = 4.0;
 
-/// The samples of a segment at which curvatures are compared.
+/// The samples of a segment at which curvatures are compared, and the steps to the largest beside one of them, each to
+/// two thirds of the way.
 const SAMPLES: usize = 32;
+const STEPS: usize = 40;
 
 /// Say why a bridge between two parts is no use: it goes a long way round, or is bent sharply across a short gap.
 pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
@@ -91,47 +95,84 @@ pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String
         return Some(format!("A bridge is {length} long, the gap {gap}"));
     }
     let sizes = parts.map(|part| BezierPolygon::from_float(part).size());
-    match found.gap > SHORT * sizes[0].max(sizes[1]) {
-        true => None,
-        false => spike(found, parts),
-    }
+    let most = match found.gap > SHORT * sizes[0].max(sizes[1]) {
+        true => CUSP * SHARPEST,
+        false => SHARPEST,
+    };
+    bent(found, parts, most)
 }
 
 /// Say that a bridge is bent so sharply that it is no use, however long the gap.
 pub(super) fn spike(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
-    let (sharpest, needed) = bends(found, parts);
-    (sharpest > SHARPEST * needed).then(|| {
-        let radius = significant(1.0 / sharpest, 3);
+    bent(found, parts, SHARPEST)
+}
+
+/// Say that a bridge bends more than so many times as sharply as it needs to.
+fn bent(found: &Bridged, parts: [&FloatPolygon; 2], most: f64) -> Option<String> {
+    let bends = Bends::of(found, parts);
+    (bends.largest > most * bends.of_parts.max(bends.over_gap)).then(|| {
+        let radius = significant(1.0 / bends.largest, 3);
         format!("A bridge is bent to a radius of {radius}")
     })
 }
 
 /// Say that a bridge is bent more sharply than its parts and the gap make one expect.
 pub(super) fn knuckle(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
-    let (sharpest, needed) = bends(found, parts);
-    (sharpest > SHARPER * needed).then(|| {
-        let radius = significant(1.0 / sharpest, 3);
-        format!("The bridge is bent to a radius of {radius}, sharper than the curves")
+    let bends = Bends::of(found, parts);
+    (bends.largest > SHARPER * bends.at_ends.max(bends.over_gap)).then(|| {
+        let radius = significant(1.0 / bends.largest, 3);
+        format!("The bridge is bent to a radius of {radius}, sharper than its ends")
     })
 }
 
-/// The largest curvature of a bridge, and the larger of that of its parts and that which turns the ends over the gap.
-fn bends(found: &Bridged, parts: [&FloatPolygon; 2]) -> (f64, f64) {
-    let most = |polygon: &FloatPolygon, [from, to]: [f64; 2]| {
-        let count = ((to - from).ceil() as usize * SAMPLES).max(SAMPLES);
-        let at = |index: usize| from + (to - from) * index as f64 / count as f64;
-        let curvatures = (0..=count).map(|index| polygon.jet(at(index)).curvature());
-        curvatures.fold(0.0, f64::max)
-    };
-    let own = parts.map(|part| most(part, [0.0, part.segments() as f64]));
-    let [end, start] = joint(found);
-    let [from, to] = [end, start].map(|u| found.polygon.jet(u));
-    let way = to.point - from.point;
-    let turns = [from, to].map(|jet| jet.tangent().map_or(PI, |it| it.angle_between(way)));
-    // Over no way there is no angle.
-    let turns = turns.into_iter().filter(|turn| turn.is_finite());
-    let needed = own[0].max(own[1]).max(turns.sum::<f64>() / found.gap);
-    (most(&found.polygon, [end, start]), needed)
+/// Curvatures of a bridge and beside it.
+struct Bends {
+    /// The largest of the bridge.
+    largest: f64,
+    /// The largest of its parts.
+    of_parts: f64,
+    /// The larger one of the places where it begins and ends.
+    at_ends: f64,
+    /// The one that turns the ends over the gap.
+    over_gap: f64,
+}
+
+impl Bends {
+    fn of(found: &Bridged, parts: [&FloatPolygon; 2]) -> Self {
+        let own = parts.map(|part| largest_curvature(part, [0.0, part.segments() as f64]));
+        let [end, start] = joint(found);
+        let ends = [end, start].map(|u| found.polygon.jet(u));
+        let way = ends[1].point - ends[0].point;
+        let turns = ends.map(|jet| jet.tangent().map_or(PI, |it| it.angle_between(way)));
+        // Over no way there is no angle.
+        let turns = turns.into_iter().filter(|turn| turn.is_finite());
+        let at_ends = ends.map(|jet| jet.curvature());
+        Self {
+            largest: largest_curvature(&found.polygon, [end, start]),
+            of_parts: own[0].max(own[1]),
+            at_ends: at_ends[0].max(at_ends[1]),
+            over_gap: turns.sum::<f64>() / found.gap,
+        }
+    }
+}
+
+/// The largest curvature of a part of a curve, near the largest at samples.
+fn largest_curvature(polygon: &FloatPolygon, [from, to]: [f64; 2]) -> f64 {
+    let count = ((to - from).ceil() as usize * SAMPLES).max(SAMPLES);
+    let step = (to - from) / count as f64;
+    let curvature = |u: f64| polygon.jet(u).curvature();
+    let samples = (0..=count).map(|index| from + step * index as f64);
+    let best = samples.max_by(|a, b| curvature(*a).total_cmp(&curvature(*b)));
+    let best = best.unwrap_or(from);
+    let (mut low, mut high) = ((best - step).max(from), (best + step).min(to));
+    for _ in 0..STEPS {
+        let third = (high - low) / 3.0;
+        match curvature(low + third) < curvature(high - third) {
+            true => low += third,
+            false => high -= third,
+        }
+    }
+    curvature(best).max(curvature(0.5 * (low + high)))
 }
 
 /// Annotation the vertices of a bridge.
