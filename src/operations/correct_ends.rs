@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::amount::Amount;
 use super::editable::{check_measurable, open};
-use super::end_change::{is_another, moved_far, warnings_of_change};
+use super::end_change::{is_another, warnings_of_change};
 use super::error::OperationError;
 use super::features::{gains_cusp, proved, remark_on_lost_inflections};
 use super::inputs::Inputs;
@@ -24,7 +24,7 @@ use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, c
 use crate::geometry::fairing::requirement::{Check, Requirement};
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::parameters::{Number, Quantity};
-use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, Progress, counted, significant};
 
 /// What is left where only rounding is left, in units of the polygon's size.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -72,8 +72,9 @@ const DISTURBANCES: [Option<Disturbance>; 6] = [
 ];
 
 /// Automatic, the curve itself moves least where it moves no more than this share of the way that it goes if the
-/// vertices move least, and that is far.
+/// vertices move least, and that is more than this share of its size.
 const LESS: f64 = 0.5;
+const NEAR: f64 = 2e-3;
 
 /// Automatic, a correction with fewer curvature extrema may move the curve so many times as far as one with more.
 const HARDLY_FARTHER: f64 = 1.2;
@@ -466,10 +467,13 @@ fn nearest(
     let by_vertices = least(Disturbance::Differences(1))?;
     let most = match &by_vertices.polygon {
         Some(polygon) if turned_over(&curve.polygon, polygon).is_some() => f64::INFINITY,
-        Some(polygon) => match moved_far(curve, polygon)? {
-            Some([moved, _]) => LESS * moved,
-            None => return Ok(by_vertices),
-        },
+        Some(polygon) => {
+            let moved = curve.polygon.deviation(polygon)?;
+            if moved <= NEAR * BezierPolygon::from_float(&curve.polygon).size() {
+                return Ok(by_vertices);
+            }
+            LESS * moved
+        }
         None => f64::INFINITY,
     };
     let by_curve = least(Disturbance::Curve)?;
@@ -480,7 +484,7 @@ fn nearest(
     Ok(match is_nearer {
         true => Correction {
             remark: Some(
-                "The curve moves least, not its vertices: those would take it far".to_owned(),
+                "The curve moves least, not its vertices: those would take it farther".to_owned(),
             ),
             ..by_curve
         },
