@@ -11,6 +11,7 @@ mod reply;
 mod report;
 mod same_shape;
 mod selection;
+mod sharper;
 mod view;
 mod workspace;
 
@@ -50,6 +51,8 @@ use jobs::Client;
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;
 use operating::Operations;
+use reply::with_lines;
+use sharper::{newly_matched, sharp_matches};
 use view::overlay::Overlay;
 
 /// Hold the running application: what is worked on, how it is seen, and what works on it.
@@ -284,6 +287,7 @@ impl Editor {
     fn make(&mut self, label: &str, edits: Vec<Edit>, repeats: bool) -> Reply {
         let was_empty = self.document().is_empty();
         let before = self.workspace.settled().clone();
+        let matched = newly_matched(&edits);
         let made = if repeats {
             self.workspace.extend(label, edits)
         } else {
@@ -295,7 +299,15 @@ impl Editor {
             self.look(Look::ResetComb);
         }
         made?;
-        Ok(Note::told(dissolved(self.document(), &before)))
+        let told = dissolved(self.document(), &before);
+        let warnings = sharp_matches(&matched, [&before, self.document()]);
+        Ok(match warnings.is_empty() {
+            true => Note::told(told),
+            false => Note {
+                warns: true,
+                ..Note::done(with_lines(warnings, &told))
+            },
+        })
     }
 
     /// Change the document without a step and with nothing to save, unless it was edited since it was opened.

@@ -247,6 +247,57 @@ fn the_target_of_a_matched_end_is_not_set_by_hand() {
 }
 
 #[test]
+fn a_match_that_makes_a_bend_much_sharper_says_so() {
+    // A fair curve whose end lies 2.3 from the other one: pulled there up to G2 by few vertices it gets a kink.
+    let first = [
+        (-22.218, -9.573),
+        (-22.998, -5.013),
+        (-20.750, -0.0795),
+        (-15.488, 5.199),
+        (-7.665, 9.989),
+        (0.6314, 10.585),
+        (6.9076, 4.139),
+        (11.990, -2.485),
+        (18.396, 0.778),
+        (26.958, 17.027),
+        (37.707, 46.377),
+    ];
+    let second = [
+        (13.584, -14.117),
+        (16.322, -1.861),
+        (20.617, 6.074),
+        (26.457, 9.701),
+        (33.439, 9.408),
+        (40.155, 6.559),
+        (45.425, 2.293),
+        (48.987, -3.135),
+        (50.831, -9.716),
+    ];
+    for (continuity, warns) in [(Continuity::G0, false), (Continuity::G2, true)] {
+        let curves = [
+            Curve::new("first", polygon(5, &first)),
+            Curve::new("second", polygon(5, &second)),
+        ];
+        let document = Document::from_curves(curves);
+        let ids: Vec<CurveId> = document.ids().collect();
+        let mut editor = Editor::with_document(document);
+        let matched = EndMatch {
+            curve: ids[0],
+            end: End::Finish,
+            source: ids[1],
+            place: MatchPlace::End(End::Start),
+            continuity,
+            reversed: false,
+        };
+        let note = editor.apply("Match end", vec![Edit::SetMatch(matched)]);
+        let note = note.expect("a match");
+        assert_eq!(note.warns, warns, "{}", note.text);
+        let begins = "The match bends “first” to the radius 0.2";
+        assert_eq!(note.text.starts_with(begins), warns, "{}", note.text);
+    }
+}
+
+#[test]
 fn curves_do_not_follow_each_other_in_a_circle() {
     let (mut script, ids) = script();
     pick_end(&mut script, ids, Continuity::G1, true);

@@ -411,7 +411,7 @@ fn fitting_the_selection_fits_the_curves() {
 }
 
 #[test]
-fn a_curve_that_crosses_itself_when_it_closes_says_so() {
+fn a_curve_that_crosses_itself_or_bends_sharply_when_it_closes_says_so() {
     // The tails of an arc's polygon cross; a ring's do not.
     let arc: Vec<(f64, f64)> = (0..9)
         .map(|index| {
@@ -428,7 +428,16 @@ fn a_curve_that_crosses_itself_when_it_closes_says_so() {
         (4.0, -6.0),
         (9.0, -6.0),
     ];
-    for (vertices, warns) in [(arc, false), (crossed.to_vec(), true)] {
+    // The closing leg of a flat arc makes two corners.
+    let flat = (0..9).map(|index| {
+        let angle = 0.1 * f64::from(index);
+        (100.0 * angle.cos(), 100.0 * angle.sin())
+    });
+    for (vertices, warning) in [
+        (arc, None),
+        (crossed.to_vec(), Some("crosses itself")),
+        (flat.collect(), Some("A bend has the radius")),
+    ] {
         let curve = Curve::new(
             "curve",
             FloatPolygon::planar(3, &vertices).expect("a polygon"),
@@ -438,7 +447,9 @@ fn a_curve_that_crosses_itself_when_it_closes_says_so() {
         };
         script.command(Command::TogglePeriodic);
         let message = script.editor.message();
-        let told = message.is_some_and(|it| it.warns && it.text.contains("crosses itself"));
-        assert_eq!(told, warns, "{message:?}");
+        let told = message.filter(|it| it.warns).map(|it| it.text.as_str());
+        let is_told = warning.is_some_and(|it| told.is_some_and(|text| text.contains(it)));
+        assert_eq!(is_told, warning.is_some(), "{message:?}");
+        assert_eq!(told.is_some(), warning.is_some(), "{message:?}");
     }
 }

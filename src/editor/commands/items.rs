@@ -3,6 +3,7 @@
 use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
 use crate::editor::polygon_edits::periodicity;
 use crate::editor::reply::Refusal;
+use crate::editor::sharper::sharper_radius;
 use crate::geometry::{FloatPolygon, curve_crossing};
 use crate::io::counted_items;
 
@@ -20,12 +21,12 @@ pub(super) struct Change {
     /// Why the others are left out, a sentence each.
     pub left_out: Vec<String>,
     /// What the user may not want.
-    pub warning: Option<&'static str>,
+    pub warning: Option<String>,
 }
 
-/// The warning that a curve which closes crosses itself.
-const CROSSES: &str = "The curve crosses itself: it closes round all vertices of its polygon. \
-     Close curve joins its ends instead";
+/// What a curve that becomes periodic does, and what else there is.
+const PERIODIC: &str =
+    "it closes round all vertices of its polygon. Close curve joins its ends instead";
 
 impl Change {
     /// Make the edit of each item. Those without one are left out; without any edit the first reason counts.
@@ -134,23 +135,24 @@ impl Change {
             let edit = periodicity(id, curve, periodic);
             edit.map_err(|error| format!("{}: {error}", quoted(&curve.name)))
         })?;
-        let mut edits = change.edits.iter();
-        let crosses = periodic && edits.any(|edit| makes_crossing(document, edit));
-        Ok(Self {
-            warning: crosses.then_some(CROSSES),
-            ..change
-        })
+        let mut edits = change.edits.iter().filter(|_| periodic);
+        let warning = edits.find_map(|edit| warning_of_ring(document, edit));
+        Ok(Self { warning, ..change })
     }
 }
 
-/// Whether an edit gives a planar curve a polygon with which it crosses itself, and did not before.
-fn makes_crossing(document: &Document, edit: &Edit) -> bool {
+/// Say that a curve which becomes periodic crosses itself, or has a bend much sharper than all before.
+fn warning_of_ring(document: &Document, edit: &Edit) -> Option<String> {
     let Edit::Renumber { curve, polygon, .. } = edit else {
-        return false;
+        return None;
     };
+    let before = &document.curve(*curve)?.polygon;
     let crosses = |polygon: &FloatPolygon| polygon.is_planar() && curve_crossing(polygon).is_some();
-    let before = document.curve(*curve).map(|curve| &curve.polygon);
-    crosses(polygon) && !before.is_some_and(crosses)
+    if crosses(polygon) && !crosses(before) {
+        return Some(format!("The curve crosses itself: {PERIODIC}"));
+    }
+    let radius = sharper_radius(before, polygon)?;
+    Some(format!("A bend has the radius {radius} now: {PERIODIC}"))
 }
 
 /// The items that are hidden, of those that were.

@@ -1,0 +1,43 @@
+//! Bends that a change makes much sharper, though nobody asked for them.
+
+use crate::document::{CurveId, Document, Edit, quoted};
+use crate::geometry::{FloatPolygon, significant};
+
+/// A bend that is so many times as sharp as all bends before is told, looked for at so many places a segment.
+const SHARPER: f64 = 8.0;
+const PLACES: usize = 16;
+
+/// The radius of the sharpest bend of a curve, as text, if it is much sharper than all those before.
+pub(super) fn sharper_radius(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
+    let [was, now] = [before, after].map(largest_curvature);
+    let least = before.size().recip();
+    (now > SHARPER * was.max(least)).then(|| significant(now.recip(), 3))
+}
+
+/// The curves that edits match with others.
+pub(super) fn newly_matched(edits: &[Edit]) -> Vec<CurveId> {
+    let matched = edits.iter().filter_map(|edit| match edit {
+        Edit::SetMatch(matched) => Some(matched.curve),
+        _ => None,
+    });
+    matched.collect()
+}
+
+/// Say which curves their new matches bend much more sharply than they were, a line each.
+pub(super) fn sharp_matches(matched: &[CurveId], [before, after]: [&Document; 2]) -> String {
+    let told = matched.iter().filter_map(|id| {
+        let (before, after) = (before.curve(*id)?, after.curve(*id)?);
+        let radius = sharper_radius(&before.polygon, &after.polygon)?;
+        let name = quoted(&after.name);
+        Some(format!(
+            "The match bends {name} to the radius {radius}: match up to less, or refine first"
+        ))
+    });
+    told.collect::<Vec<_>>().join("\n")
+}
+
+fn largest_curvature(polygon: &FloatPolygon) -> f64 {
+    let places = (0..=PLACES * polygon.segments()).map(|it| it as f64 / PLACES as f64);
+    let curvatures = places.map(|u| polygon.jet(u).curvature());
+    curvatures.fold(0.0, f64::max)
+}
