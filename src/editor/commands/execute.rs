@@ -86,15 +86,23 @@ impl Editor {
         undone.map_or_else(Note::silent, |label| Note::told(format!("Undone: {label}")))
     }
 
-    /// Undo or redo a step, and select the items that it brings back. Returns the step's label.
+    /// Undo or redo a step, and select the items that it brings back, beside the active one if it changes too: what made
+    /// one curve of two had both selected. Returns the step's label.
     fn step(&mut self, take: fn(&mut Workspace) -> Option<String>) -> Option<String> {
-        let before: BTreeSet<CurveId> = self.document().all_ids().collect();
+        let before = self.document().clone();
         let label = take(&mut self.workspace);
         self.document_changed();
-        let returned = self.document().all_ids().filter(|id| !before.contains(id));
+        let document = self.document();
+        let ids: BTreeSet<CurveId> = before.all_ids().collect();
+        let returned = document.all_ids().filter(|id| !ids.contains(id));
         let returned: Vec<CurveId> = returned.collect();
+        let active = self.hand.selection.active();
+        let changed = active
+            .filter(|id| document.curve(*id).is_some() && document.curve(*id) != before.curve(*id));
         if !returned.is_empty() {
-            self.hand.selection.set_items(returned);
+            self.hand
+                .selection
+                .set_items(changed.into_iter().chain(returned));
             self.operating().leave_stale();
         }
         label
@@ -237,8 +245,8 @@ impl Editor {
             self.hand.isolated = change.taken;
         }
         let lines = with_lines(deleted + &note.text, &change.left_out.join("\n"));
-        let lines = match change.warning {
-            Some(warning) => with_lines(warning.to_owned(), &lines),
+        let lines = match &change.warning {
+            Some(warning) => with_lines(warning.clone(), &lines),
             None => lines,
         };
         Ok(match lines.is_empty() {
