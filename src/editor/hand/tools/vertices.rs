@@ -21,7 +21,7 @@ use crate::geometry::{End, FloatPolygon, PolygonError};
 const LEG_REACH: f64 = 24.0;
 
 /// The message where there is no leg to insert a vertex into.
-const NO_LEG: &str = "There is no leg here: click on a leg of a float S-polygon";
+const NO_LEG: &str = "There is no leg here: click on a curve or on a leg of its float S-polygon";
 
 /// Make new vertices of a polygon.
 #[derive(Debug)]
@@ -172,6 +172,16 @@ impl Adding {
     }
 }
 
+/// The leg near a place, or beside the curve there.
+fn leg_at(place: DVec2, context: &Context) -> Option<LegHit> {
+    let near = context.hits.leg(place, LEG_REACH);
+    near.or_else(|| {
+        let curve = context.hits.curve(place)?.curve;
+        let leg = context.hits.leg(place, f64::INFINITY);
+        leg.filter(|leg| leg.curve == curve)
+    })
+}
+
 impl NewVertexTool {
     /// Take a tool that makes new vertices in one place.
     pub fn new(place: NewVertex) -> Self {
@@ -190,7 +200,7 @@ impl NewVertexTool {
                 (Adding::at_end(Some(at), context)?, at)
             }
             NewVertex::IntoLeg => {
-                let hit = context.hits.leg(place, LEG_REACH).ok_or(NO_LEG)?;
+                let hit = leg_at(place, context).ok_or(NO_LEG)?;
                 (Adding::into_leg(hit, &self.last_shape, context)?, hit.point)
             }
         };
@@ -213,7 +223,7 @@ impl NewVertexTool {
             }
             NewVertex::IntoLeg => {
                 let place = context.place();
-                let hit = place.and_then(|place| context.hits.leg(place, LEG_REACH));
+                let hit = place.and_then(|place| leg_at(place, context));
                 let hit = hit.ok_or_else(|| NO_LEG.to_owned());
                 hit.and_then(|hit| Adding::into_leg(hit, &self.last_shape, context))
             }
