@@ -210,6 +210,7 @@ impl App {
     }
 
     fn take_keys(&mut self, context: &Context) {
+        self.help.take_escape(context);
         if let Some(topic) = help::take_key(context) {
             self.help.open_topic(topic);
         }

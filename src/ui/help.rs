@@ -2,8 +2,8 @@
 //! panel, operation and menu.
 
 use eframe::egui::{
-    Align, Context, CursorIcon, Id, Key, LayerId, Modifiers, Order, Pos2, Rect, RichText,
-    ScrollArea, TextEdit, Ui, Window, vec2,
+    Align, Context, CursorIcon, Id, InputState, Key, LayerId, Modifiers, Order, Pos2, Rect,
+    RichText, ScrollArea, TextEdit, Ui, Window, vec2,
 };
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 
@@ -162,6 +162,14 @@ impl Help {
     pub fn open_topic(&mut self, topic: Topic) {
         self.open();
         self.follow(&topic.link());
+    }
+
+    /// Close the window at Esc, if it is open: it lies on top of all else. A drag goes on under it.
+    pub fn take_escape(&mut self, context: &Context) {
+        if self.is_open && !context.input(|input| input.pointer.any_down()) {
+            let escape = |input: &mut InputState| input.consume_key(Modifiers::NONE, Key::Escape);
+            self.is_open = !context.input_mut(escape);
+        }
     }
 
     /// Show the window, if it is open.
