@@ -14,7 +14,7 @@ use crate::geometry::harmony::{Harmony, SegmentFairness};
 use crate::geometry::{BezierPolygon, FloatPolygon, Progress, significant};
 
 /// A bend that is so many times as sharp as all bends before is told.
-const SHARPER: f64 = 10.0;
+const SHARPER: f64 = 3.0;
 
 /// One that is so many times as sharp is a cusp to the eye.
 const CUSP: f64 = 100.0;

@@ -254,7 +254,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         outcome.remarks.extend(remark_on_many(&found, &harmony));
         let lost = follows(&found.polygon, &progress) == Some(false)
             && follows(&curve.polygon, &progress) == Some(true);
-        outcome.remarks.extend(lost.then(|| {
+        outcome.warnings.extend(lost.then(|| {
             "No result was found whose discrete curvature follows the curve: refine, or allow more extrema"
                 .to_owned()
         }));
