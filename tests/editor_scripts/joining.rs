@@ -43,6 +43,9 @@ fn two_curves_are_joined_as_one_step_and_undone_to_the_bit() {
     assert_eq!(script.editor.document().curve(arc), Some(&shown));
     script.command(Command::Undo);
     assert!(script.editor.document().is_same(&before));
+    // The first curve is the active one again, and both are selected.
+    assert_eq!(script.editor.hand().selection().active(), Some(arc));
+    assert!(script.editor.hand().selection().has_item(other));
     script.command(Command::Redo);
     assert_eq!(script.editor.document().curve(arc), Some(&shown));
     script.command(Command::Undo);

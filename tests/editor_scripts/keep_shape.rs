@@ -1,7 +1,7 @@
 //! Inserting and deleting vertices: the curve keeps its shape, or the other vertices stay.
 
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
-use batten::editor::{Command, Editor, Look, ToolKind};
+use batten::editor::{Command, Editor, Input, Look, ToolKind};
 use batten::geometry::{Continuity, End, FloatPolygon};
 use glam::{DVec2, DVec3};
 
@@ -118,6 +118,30 @@ fn an_inserted_vertex_keeps_the_curve_and_says_before_how_well() {
         script.command(Command::Undo);
         assert_eq!(script.polygon(), polygon, "{name}");
     }
+}
+
+#[test]
+fn a_vertex_is_inserted_at_a_click_on_the_curve_far_from_its_legs() {
+    let polygon = arch(3, 9, 0.0, None);
+    let mut script = of(polygon.clone());
+    script.tool(ToolKind::Insert);
+    let viewport = script.editor.view().viewport();
+    let at = |u: f64| viewport.to_screen(viewport.flatten(polygon.point(u)));
+    // The curve is close to the legs of a cubic: zoom in until they are far.
+    let middle = at(2.5);
+    script.input(Input::Zoomed {
+        at: middle,
+        factor: 30.0,
+    });
+    script.click(middle);
+    assert_eq!(
+        script.polygon().vertices().len(),
+        10,
+        "{}",
+        script.message()
+    );
+    let off = apart(&polygon, &script.polygon());
+    assert!(off <= 2e-4 * polygon.size(), "{off:e}");
 }
 
 #[test]

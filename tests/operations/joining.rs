@@ -42,6 +42,27 @@ fn only(document: &Document) -> &Curve {
     curve
 }
 
+/// Two arcs that run beside each other: the way from one to the other turns back.
+#[test]
+fn no_bridge_turns_back_in_a_cusp() {
+    let mut second = arc("b", 5, 20.0, 100.0);
+    let vertices = second.polygon.vertices().iter();
+    let moved: Vec<DVec3> = vertices.map(|it| *it + DVec3::new(1.5, 1.0, 0.0)).collect();
+    second.polygon = FloatPolygon::new(5, moved, None, false).expect("a polygon");
+    let document = Document::from_curves([arc("a", 5, 20.0, 100.0), second]);
+    let ends = [
+        ("first-end", Value::Choice(2)),
+        ("second-end", Value::Choice(2)),
+    ];
+    let bridge = [("method", Value::Choice(2))];
+    let given: Vec<(&str, Value)> = ends.into_iter().chain(bridge).collect();
+    let (outcome, after, _) = join(&document, &given);
+    let polygon = &only(&after).polygon;
+    let features = Features::proved(polygon, |_| true).expect("a proof");
+    let radius = features.largest_curvature(polygon).recip();
+    assert!(!outcome.reached || radius > 0.05, "{radius:e}");
+}
+
 /// Whether some vertices of a polygon are those of another, from a number on, to the bit.
 fn has_at(polygon: &FloatPolygon, offset: usize, part: &FloatPolygon) -> bool {
     let found = &polygon.vertices()[offset..][..part.vertices().len()];

@@ -63,6 +63,19 @@ fn every_page_is_shown_with_all_its_letters() {
 }
 
 #[test]
+fn escape_closes_the_manual_and_leaves_the_tool_alone() {
+    let mut window = open_window();
+    press(&mut window, Modifiers::NONE, Key::D);
+    choose(&mut window, &["Help", "Manual"]);
+    let tool = window.state().editor().hand().tool();
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(window.query_by_label("Search the manual").is_none());
+    assert_eq!(window.state().editor().hand().tool(), tool);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_ne!(window.state().editor().hand().tool(), tool);
+}
+
+#[test]
 fn f1_over_the_canvas_lists_the_keys() {
     let mut window = open_window();
     let at = window.state().canvas_rect().expect("a canvas").center();
