@@ -71,10 +71,15 @@ impl TradeOff {
             .into_iter()
             .filter(|(name, _)| *name != EXTREMA)
             .collect();
-        if self.others != others || rows.len() > 1 {
-            self.rows = rows;
+        if self.others != others {
+            self.rows.clear();
             self.others = others;
         }
+        // A wished number tells of itself and of a few others.
+        self.rows
+            .retain(|known| rows.iter().all(|row| row.extrema != known.extrema));
+        self.rows.extend(rows);
+        self.rows.sort_by_key(|row| row.extrema);
     }
 
     /// Show the bars, higher where the curve is farther off, and below them the figures of the hovered one or the
