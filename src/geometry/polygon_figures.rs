@@ -1,5 +1,7 @@
 //! Figures of a polygon itself: legs, turning angles, discrete curvature.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 
 use super::end_correction::angle_between;
@@ -50,6 +52,9 @@ impl Range {
     }
 }
 
+/// A polygon that turns by more than this at a vertex, in radians, folds: nobody could drag it there.
+pub const FOLD: f64 = 2.0 * PI / 3.0;
+
 /// Measure the angle by which a polygon turns at `corner`, in radians: in the plane z = 0 left turns
 /// are positive, in space all angles are. A leg of length 0 turns by 0.
 pub fn turning_angle(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
@@ -59,6 +64,21 @@ pub fn turning_angle(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
     } else {
         angle.abs()
     }
+}
+
+/// Measure the angles by which a float polygon turns, without their signs, with the vertices where it does.
+pub fn turning_angles(polygon: &FloatPolygon) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let vertices = polygon.vertices();
+    let count = vertices.len();
+    let turns = match polygon.is_periodic() {
+        true => count,
+        false => count.saturating_sub(2),
+    };
+    (0..turns).map(move |first| {
+        let [before, corner, after] = [0, 1, 2].map(|it| (first + it) % count);
+        let angle = turning_angle(vertices[before], vertices[corner], vertices[after]);
+        (corner, angle.abs())
+    })
 }
 
 /// Compute the discrete curvature of a polygon at `corner` (paper, section 3): D₁ × D₂ / |D₁|³

@@ -1,17 +1,13 @@
 //! What the user may not want of a curve that is fitted to points.
 
-use std::f64::consts::PI;
-
 use glam::DVec3;
 
 use crate::geometry::fitting::{Fitted, PlaneFit, SharpBend};
+use crate::geometry::polygon_figures::{FOLD, turning_angles};
 use crate::geometry::{BezierPolygon, End, FloatPolygon, significant};
 
 /// A vertex farther off the curve than so many times its size is named.
 const LONG_TAIL: f64 = 5.0;
-
-/// A polygon that turns by more than this at a vertex, in radians, is told.
-const FOLD: f64 = 2.0 * PI / 3.0;
 
 /// What to do about a polygon that can hardly be dragged.
 const ANOTHER: &str = "another number of vertices may be handier";
@@ -102,14 +98,9 @@ fn told_bend(bend: SharpBend, size: f64) -> String {
 
 /// Name the vertex where the polygon turns back most: nobody could drag it there.
 fn fold(polygon: &FloatPolygon) -> Option<String> {
-    let three = polygon.vertices().windows(3);
-    let turns = three.map(|three| match three {
-        [a, b, c] => (*b - *a).angle_between(*c - *b),
-        _ => 0.0,
-    });
-    let (before, turn) = turns.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (vertex, turn) = turning_angles(polygon).max_by(|a, b| a.1.total_cmp(&b.1))?;
     (turn > FOLD).then(|| {
-        let (vertex, turn) = (before + 1, turn.to_degrees().round());
+        let turn = turn.to_degrees().round();
         format!("The polygon turns back by {turn}° at vertex {vertex}: {ANOTHER}")
     })
 }

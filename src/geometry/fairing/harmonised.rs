@@ -1,8 +1,5 @@
 //! What harmonising is asked, and what it returns.
 
-use std::f64::consts::PI;
-
-use glam::DVec3;
 use thiserror::Error;
 
 use super::counts::ShapeCounts;
@@ -12,6 +9,7 @@ use crate::geometry::error::PolygonError;
 use crate::geometry::features::Features;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::harmony;
+use crate::geometry::polygon_figures::{FOLD, turning_angles};
 use crate::geometry::progress::Progress;
 
 /// A curve without some of the features that stand out must be so many times nearer than one with all of them.
@@ -19,9 +17,6 @@ const LOST: f64 = 3.0;
 
 /// A fitted curve, whose vertices may lie anywhere, must be so many times nearer than the least change of them.
 const REFITTED: f64 = 2.0;
-
-/// A polygon that turns by more than this at a vertex, in radians, folds.
-const FOLD: f64 = 2.0 * PI / 3.0;
 
 /// A curve whose polygon folds must be so many times nearer than one whose polygon does not.
 const FOLDED: f64 = 4.0;
@@ -172,21 +167,8 @@ pub fn flung(before: &FloatPolygon, after: &FloatPolygon) -> Option<(usize, f64)
 
 /// Whether a polygon turns back at a vertex where it did not before: nobody takes that for harmonious.
 pub(super) fn folds(before: &FloatPolygon, after: &FloatPolygon) -> bool {
-    let mut pairs = turns(before).into_iter().zip(turns(after));
-    pairs.any(|(before, after)| before <= FOLD && after > FOLD)
-}
-
-/// The angles between legs that follow each other.
-fn turns(polygon: &FloatPolygon) -> Vec<f64> {
-    let vertices = polygon.vertices();
-    let closing = if polygon.is_periodic() { 2 } else { 0 };
-    let around = vertices.iter().chain(vertices.iter().take(closing));
-    let around: Vec<DVec3> = around.copied().collect();
-    let turn = |three: &[DVec3]| match three {
-        [a, b, c] => (*b - *a).angle_between(*c - *b),
-        _ => 0.0,
-    };
-    around.windows(3).map(turn).collect()
+    let mut pairs = turning_angles(before).zip(turning_angles(after));
+    pairs.any(|((_, before), (_, after))| before <= FOLD && after > FOLD)
 }
 
 /// The vertex that moves farthest, and how far.

@@ -1,7 +1,5 @@
 //! Fits with a wished number of extrema, from few vertices to many.
 
-use std::f64::consts::PI;
-
 use glam::{DVec2, DVec3};
 
 use super::descent::descend;
@@ -15,6 +13,7 @@ use super::winding::{hooks, spikes, winds};
 use crate::geometry::end::End;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::polygon_figures::{FOLD, turning_angles};
 use crate::geometry::progress::Progress;
 
 /// The factor between the numbers of segments of two levels.
@@ -51,10 +50,8 @@ const MANY: usize = 80;
 const GAIN: f64 = 0.97;
 const STALE: usize = 3;
 
-/// A vertex farther than so many sizes from the points can hardly be dragged, nor can legs that turn back by more than
-/// this angle, in radians.
+/// A vertex farther than so many sizes from the points can hardly be dragged.
 const FAR_VERTEX: f64 = 3.0;
-const FOLD: f64 = 2.0 * PI / 3.0;
 
 /// An error below this share of the size is rounding.
 const EXACT: f64 = 1e-9;
@@ -226,19 +223,16 @@ impl<'a> Task<'a> {
         levels
     }
 
-    /// Whether all vertices lie near the points, and no leg turns back. Curves with few segments have such polygons.
+    /// Whether all vertices lie near the points and the polygon does not fold. With few segments it may.
     pub(super) fn is_handy(&self, level: &Level) -> bool {
         let points = self.data.points.iter().copied();
         let low = points.clone().fold(DVec2::INFINITY, DVec2::min);
         let high = points.fold(DVec2::NEG_INFINITY, DVec2::max);
         let far = FAR_VERTEX * low.distance(high);
-        let vertices = &level.start.curve.vertices;
+        let mut vertices = level.start.curve.vertices.iter();
         let is_near = |vertex: &DVec2| vertex.distance(vertex.clamp(low, high)) <= far;
-        let folds = |three: &[DVec2]| match three {
-            [a, b, c] => (*b - *a).angle_to(*c - *b).abs() > FOLD,
-            _ => false,
-        };
-        vertices.iter().all(is_near) && !vertices.windows(3).any(folds)
+        let folds = |polygon: &FloatPolygon| turning_angles(polygon).any(|(_, angle)| angle > FOLD);
+        vertices.all(is_near) && !level.polygon().is_some_and(|polygon| folds(&polygon))
     }
 
     /// The fit with any number of extrema: least squares with a little fairness.
