@@ -1,15 +1,16 @@
 //! Bends that a change makes much sharper, though nobody asked for them.
 
 use crate::document::{CurveId, Document, Edit, quoted};
-use crate::geometry::{FloatPolygon, significant};
+use crate::geometry::{FloatPolygon, largest_curvature, significant};
 
-/// A bend that is so many times as sharp as all bends before is told, looked for at so many places a segment.
+/// A bend that is so many times as sharp as all bends before is told.
 const SHARPER: f64 = 8.0;
-const PLACES: usize = 16;
 
 /// The radius of the sharpest bend of a curve, as text, if it is much sharper than all those before.
 pub(super) fn sharper_radius(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
-    let [was, now] = [before, after].map(largest_curvature);
+    let largest =
+        |polygon: &FloatPolygon| largest_curvature(polygon, [0.0, polygon.segments() as f64]);
+    let [was, now] = [before, after].map(largest);
     let least = before.size().recip();
     (now > SHARPER * was.max(least)).then(|| significant(now.recip(), 3))
 }
@@ -34,10 +35,4 @@ pub(super) fn sharp_matches(matched: &[CurveId], [before, after]: [&Document; 2]
         ))
     });
     told.collect::<Vec<_>>().join("\n")
-}
-
-fn largest_curvature(polygon: &FloatPolygon) -> f64 {
-    let places = (0..=PLACES * polygon.segments()).map(|it| it as f64 / PLACES as f64);
-    let curvatures = places.map(|u| polygon.jet(u).curvature());
-    curvatures.fold(0.0, f64::max)
 }

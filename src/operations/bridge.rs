@@ -8,7 +8,7 @@ use super::parameter::{Kind, Parameter};
 use super::value::Value;
 use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, largest_jump};
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{BezierPolygon, FloatPolygon, significant};
+use crate::geometry::{BezierPolygon, FloatPolygon, largest_curvature, significant};
 
 /// How many vertices a bridge has.
 pub(super) const BRIDGE: Parameter = Parameter {
@@ -83,11 +83,6 @@ const SHARPER: f64 = 3.0;
 const SHORT: f64 = 0.05;
 const CUSP: f64 = 4.0;
 
-/// The samples of a segment at which curvatures are compared, and the steps to the largest beside one of them, each to
-/// two thirds of the way.
-const SAMPLES: usize = 32;
-const STEPS: usize = 40;
-
 /// Say why a bridge between two parts is no use: it goes a long way round, or is bent sharply across a short gap.
 pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
     if found.is_long {
@@ -156,26 +151,7 @@ impl Bends {
     }
 }
 
-/// The largest curvature of a part of a curve, near the largest at samples.
-fn largest_curvature(polygon: &FloatPolygon, [from, to]: [f64; 2]) -> f64 {
-    let count = ((to - from).ceil() as usize * SAMPLES).max(SAMPLES);
-    let step = (to - from) / count as f64;
-    let curvature = |u: f64| polygon.jet(u).curvature();
-    let samples = (0..=count).map(|index| from + step * index as f64);
-    let best = samples.max_by(|a, b| curvature(*a).total_cmp(&curvature(*b)));
-    let best = best.unwrap_or(from);
-    let (mut low, mut high) = ((best - step).max(from), (best + step).min(to));
-    for _ in 0..STEPS {
-        let third = (high - low) / 3.0;
-        match curvature(low + third) < curvature(high - third) {
-            true => low += third,
-            false => high -= third,
-        }
-    }
-    curvature(best).max(curvature(0.5 * (low + high)))
-}
-
-/// Annotation the vertices of a bridge.
+/// Annotate the vertices of a bridge.
 pub(super) fn annotations(found: &Bridged) -> Vec<Annotation> {
     let vertices = found.bridge.clone();
     vertices
