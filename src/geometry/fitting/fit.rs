@@ -61,10 +61,11 @@ const EACH_TIME: Duration = Duration::from_secs(3);
 /// A fit that does not cross itself may be farther off by this factor than one that does.
 const ABOUT: f64 = 1.25;
 
-/// Levels of fewer extrema that begin those of more.
-const RELEASED: usize = 3;
+/// Levels of fewer extrema that begin those of more, and those of few that patterns of smoothed curves begin too.
+const RELEASED: [usize; 2] = [3, 1];
 
-/// From this number of extrema on, levels with fewer begin those with just so many, which are looked for so long.
+/// Levels with fewer extrema, which are looked for so long, begin those with just so many: from this number on only they,
+/// below it also patterns of smoothed curves.
 const LADDER: usize = 4;
 const LADDER_TIME: Duration = Duration::from_secs(2);
 
@@ -229,7 +230,7 @@ impl Search {
     /// Levels of one or two extrema less, which begin those of more.
     fn fewer(&self, extrema: usize) -> Vec<Level> {
         let near = self.known.range(extrema.saturating_sub(2)..extrema);
-        let last = near.flat_map(|(_, levels)| levels.iter().rev().take(RELEASED));
+        let last = near.flat_map(|(_, levels)| levels.iter().rev().take(RELEASED[0]));
         last.cloned().collect()
     }
 }
@@ -459,60 +460,41 @@ impl Fit<'_> {
     fn exactly(&self, extrema: usize, is_shown: bool) -> (Option<Level>, Vec<TradeOff>) {
         let tolerance = self.asked.tolerance.map(|_| self.prepared.tolerance);
         let task = self.task(extrema, tolerance);
-        let keeps = self.asked.tolerance.is_some();
+        let keeps = tolerance.is_some();
         let find = |fewer: &[Level], is_shown: bool| {
             let levels = task.levels(fewer, &|known| {
                 if is_shown {
                     self.show_chosen(known, keeps);
                 }
             });
-            self.refined_choice(extrema, levels, keeps)
+            self.refined_choice(extrema, levels, keeps).0
         };
-        let (fewer, mut reached) = self.ladder(extrema);
-        let (mut level, mut trade_off) = find(&fewer, is_shown);
-        let is_kept = |it: &Level| keeps && it.largest <= self.prepared.tolerance;
-        if extrema < LADDER && !level.as_ref().is_some_and(is_kept) {
-            let (less, reached_with_less) = self.rung_below(extrema);
-            if !less.is_empty() {
-                let (other, of_other) = find(&less, false);
-                let both = level.iter().chain(&other).cloned().collect();
-                let is_other =
-                    self.chosen(both, keeps).map(|it| it.rms) != level.as_ref().map(|it| it.rms);
-                if is_other {
-                    (level, trade_off) = (other, of_other);
-                }
-            }
-            reached.extend(reached_with_less);
-        }
-        reached.extend(trade_off);
+        let is_few = extrema < LADDER;
+        let plain = is_few.then(|| find(&[], is_shown)).flatten();
+        let is_kept = |it: &Level| tolerance.is_some_and(|tolerance| it.largest <= tolerance);
+        let (fewer, mut reached) = match plain.as_ref().is_some_and(is_kept) {
+            true => (Vec::new(), Vec::new()),
+            false => self.ladder(extrema),
+        };
+        let is_begun = !is_few || !fewer.is_empty();
+        let begun = is_begun.then(|| find(&fewer, is_shown && !is_few));
+        let found = plain.into_iter().chain(begun.flatten());
+        let level = self.chosen(found.collect(), keeps);
+        reached.extend(level.as_ref().map(|level| self.trade_off(extrema, level)));
         (level, reached)
     }
 
-    /// Levels with one extremum less, or two where the number is even, and what they reach.
-    fn rung_below(&self, extrema: usize) -> (Vec<Level>, Option<TradeOff>) {
-        let (step, _) = self.numbers();
-        let Some(rung) = extrema.checked_sub(step) else {
-            return (Vec::new(), None);
-        };
-        let progress = self.progress.limited(LADDER_TIME);
-        let task = Task {
-            progress: &progress,
-            ..self.task(rung, None)
-        };
-        let levels = task.levels(&[], &|_| ());
-        let reached = levels.last().map(|nearest| self.trade_off(rung, nearest));
-        let nearest = levels.into_iter().rev().take(RELEASED);
-        (nearest.collect(), reached)
-    }
-
-    /// Levels with fewer extrema, which begin those with many: patterns of smoothed curves alone lead to worse ones.
-    /// What each number reaches comes with them.
+    /// Levels with fewer extrema, which begin those with more: patterns of smoothed curves alone may lead to worse ones.
+    /// What each number reaches comes with them. Monotone curvature begins nothing better.
     fn ladder(&self, extrema: usize) -> (Vec<Level>, Vec<TradeOff>) {
         let (mut fewer, mut reached): (Vec<Level>, _) = (Vec::new(), Vec::new());
+        let (step, _) = self.numbers();
+        let below = extrema.checked_sub(step).filter(|rung| *rung > 0);
         let rungs = match extrema < LADDER {
-            true => 0..0,
+            true => below.map_or(0..0, |rung| rung..rung + 1),
             false => 2 + extrema % 2..extrema,
         };
+        let released = RELEASED[usize::from(extrema < LADDER)];
         let progress = self.progress.limited(LADDER_TIME);
         for rung in rungs.step_by(2) {
             if progress.is_cancelled() {
@@ -525,7 +507,7 @@ impl Fit<'_> {
             let levels = task.levels(&fewer, &|_| ());
             reached.extend(levels.last().map(|nearest| self.trade_off(rung, nearest)));
             if !levels.is_empty() {
-                fewer = levels.into_iter().rev().take(RELEASED).collect();
+                fewer = levels.into_iter().rev().take(released).collect();
             }
         }
         (fewer, reached)
