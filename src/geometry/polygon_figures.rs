@@ -81,6 +81,11 @@ pub fn turning_angles(polygon: &FloatPolygon) -> impl Iterator<Item = (usize, f6
     })
 }
 
+/// Find the vertex where a float polygon turns most, and the angle without its sign; `None` without any turn.
+pub fn sharpest_turn(polygon: &FloatPolygon) -> Option<(usize, f64)> {
+    turning_angles(polygon).max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
 /// Compute the discrete curvature of a polygon at `corner` (paper, section 3): D₁ × D₂ / |D₁|³
 /// with the central differences D₁ = (after − before)/2 and D₂ = before − 2 corner + after.
 /// Signed in the plane z = 0; not a number where `before` and `after` coincide.

@@ -1,5 +1,6 @@
 //! Proved features and harmony of the curves that an operation concerns, before and after it.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
@@ -11,12 +12,16 @@ use super::outcome::Outcome;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::features::{Feature, Features, Verdict};
 use crate::geometry::harmony::{Harmony, SegmentFairness};
+use crate::geometry::polygon_figures::{FOLD, sharpest_turn};
 use crate::geometry::{BezierPolygon, FloatPolygon, Progress, significant};
 
 /// A bend that is so many times as sharp as all bends before is told.
 const SHARPER: f64 = 3.0;
 
-/// One that is so many times as sharp is a cusp to the eye.
+/// A polygon that folds is told if it turns by so much more than before, in radians.
+const MORE_TURN: f64 = PI / 18.0;
+
+/// A bend that is so many times as sharp is a cusp to the eye.
 const CUSP: f64 = 100.0;
 
 /// A curve may always bend as a circle of its size does: the curvature of that times its size.
@@ -54,6 +59,9 @@ pub struct FeatureCounts {
     /// The size of the curve.
     #[serde(skip)]
     size: f64,
+    /// The largest angle by which its polygon turns at a vertex, in radians.
+    #[serde(skip)]
+    largest_turn: f64,
     /// Whether the curvature is monotone.
     #[serde(serialize_with = "verdict")]
     pub monotone: Verdict,
@@ -86,8 +94,8 @@ impl FeatureComparison {
         })
     }
 
-    /// Say that there are more inflections or curvature extrema than in the curves before, or a bend that is much
-    /// sharper.
+    /// Say that there are more inflections or curvature extrema than in the curves before, a bend that is much
+    /// sharper, or a polygon that turns back.
     pub(super) fn remarks_on_more(&self) -> Vec<String> {
         let kinds = [
             ("Inflections", self.more(|it| it.inflections)),
@@ -98,7 +106,19 @@ impl FeatureComparison {
             let [before, now] = counts?;
             Some(format!("{kind}: {before} before, {now} now"))
         });
-        told.chain(self.remark_on_sharper()).collect()
+        let shapes = [self.remark_on_sharper(), self.remark_on_fold()];
+        told.chain(shapes.into_iter().flatten()).collect()
+    }
+
+    /// Say that a polygon turns back, by more than before.
+    fn remark_on_fold(&self) -> Option<String> {
+        let turns = [&self.before, &self.after]
+            .map(|curves| curves.iter().map(|it| it.largest_turn).reduce(f64::max));
+        let [before, now] = [turns[0]?, turns[1]?];
+        (now > FOLD && now > before + MORE_TURN).then(|| {
+            let [before, now] = [before, now].map(|turn| turn.to_degrees().round());
+            format!("The polygon turns back by {now}° at a vertex, before by {before}° at most")
+        })
     }
 
     /// Say that the curves have a much sharper bend than before.
@@ -174,6 +194,7 @@ impl FeatureCounts {
             undecided: features.undecided.len() + features.cusps.len() - cusps,
             largest_curvature: features.largest_curvature(&curve.polygon),
             size: BezierPolygon::from_float(&curve.polygon).size(),
+            largest_turn: sharpest_turn(&curve.polygon).map_or(0.0, |(_, turn)| turn),
             monotone: features.monotone,
             harmony: harmony.clone(),
         }

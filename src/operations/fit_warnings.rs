@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::geometry::fitting::{Fitted, PlaneFit, SharpBend};
-use crate::geometry::polygon_figures::{FOLD, turning_angles};
+use crate::geometry::polygon_figures::{FOLD, sharpest_turn};
 use crate::geometry::{BezierPolygon, End, FloatPolygon, significant};
 
 /// A vertex farther off the curve than so many times its size is named.
@@ -98,7 +98,7 @@ fn told_bend(bend: SharpBend, size: f64) -> String {
 
 /// Name the vertex where the polygon turns back most: nobody could drag it there.
 fn fold(polygon: &FloatPolygon) -> Option<String> {
-    let (vertex, turn) = turning_angles(polygon).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (vertex, turn) = sharpest_turn(polygon)?;
     (turn > FOLD).then(|| {
         let turn = turn.to_degrees().round();
         format!("The polygon turns back by {turn}° at vertex {vertex}: {ANOTHER}")
