@@ -121,7 +121,12 @@ pub(super) fn refitted(
     });
     let requirements = own.request().into_iter().chain(limit).collect();
     let keeps = own.is_kept(&found.polygon, progress)?;
+    let far = match goal.tolerance {
+        None => far(polygon, &by_distance(found.clone(), polygon, progress)),
+        Some(_) => None,
+    };
     let mut outcome = instead(input, found)?;
+    outcome.warnings.extend(far);
     if !keeps {
         let more = match goal.segments {
             Some(_) => "take more vertices",
