@@ -1,14 +1,12 @@
 //! What joining two curves and closing one share.
 
-use std::f64::consts::PI;
-
 use super::error::OperationError;
 use super::outcome::{Annotation, Figure};
 use super::parameter::{Kind, Parameter};
 use super::value::Value;
 use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, largest_jump};
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{BezierPolygon, FloatPolygon, largest_curvature, significant};
+use crate::geometry::{BezierPolygon, FloatPolygon, significant};
 
 /// How many vertices a bridge has.
 pub(super) const BRIDGE: Parameter = Parameter {
@@ -70,13 +68,9 @@ pub(super) fn remarks(found: &Bridged) -> Vec<String> {
     halved.into_iter().chain(undecided).collect()
 }
 
-/// How many times as much a bridge may bend as the parts do anywhere, or as the turns at its ends need over the gap:
+/// How many times as much a bridge may bend as it does at its ends, or as the turns there need over the gap:
 /// between two arcs four lengths apart it is 5.4 times, across a gap of 1 % with a corner of 3° 13 times.
 const SHARPEST: f64 = 6.0;
-
-/// A bridge that bends more than so many times as sharply as its ends, or as the turn over the gap needs, is seen as a
-/// knuckle.
-const SHARPER: f64 = 3.0;
 
 /// A gap of at most this share of the parts' size is short: across a longer one a bend is a matter of taste, and seen,
 /// unless it is so many times sharper still.
@@ -94,61 +88,31 @@ pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String
         true => CUSP * SHARPEST,
         false => SHARPEST,
     };
-    bent(found, parts, most)
+    bent(found, most)
 }
 
 /// Say that a bridge is bent so sharply that it is no use, however long the gap.
-pub(super) fn spike(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
-    bent(found, parts, SHARPEST)
+pub(super) fn spike(found: &Bridged) -> Option<String> {
+    bent(found, SHARPEST)
 }
 
 /// Say that a bridge bends more than so many times as sharply as it needs to.
-fn bent(found: &Bridged, parts: [&FloatPolygon; 2], most: f64) -> Option<String> {
-    let bends = Bends::of(found, parts);
-    (bends.largest > most * bends.of_parts.max(bends.over_gap)).then(|| {
-        let radius = significant(1.0 / bends.largest, 3);
-        format!("A bridge is bent to a radius of {radius}")
-    })
+fn bent(found: &Bridged, most: f64) -> Option<String> {
+    (found.bends.excess() > most)
+        .then(|| format!("A bridge is bent to a radius of {}", radius(found)))
 }
 
-/// Say that a bridge is bent more sharply than its parts and the gap make one expect.
-pub(super) fn knuckle(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String> {
-    let bends = Bends::of(found, parts);
-    (bends.largest > SHARPER * bends.at_ends.max(bends.over_gap)).then(|| {
-        let radius = significant(1.0 / bends.largest, 3);
+/// Say that a bridge is bent more sharply than its ends and the gap make one expect.
+pub(super) fn knuckle(found: &Bridged) -> Option<String> {
+    found.bends.is_knuckle().then(|| {
+        let radius = radius(found);
         format!("The bridge is bent to a radius of {radius}, sharper than its ends")
     })
 }
 
-/// Curvatures of a bridge and beside it.
-struct Bends {
-    /// The largest of the bridge.
-    largest: f64,
-    /// The largest of its parts.
-    of_parts: f64,
-    /// The larger one of the places where it begins and ends.
-    at_ends: f64,
-    /// The one that turns the ends over the gap.
-    over_gap: f64,
-}
-
-impl Bends {
-    fn of(found: &Bridged, parts: [&FloatPolygon; 2]) -> Self {
-        let own = parts.map(|part| largest_curvature(part, [0.0, part.segments() as f64]));
-        let [end, start] = joint(found);
-        let ends = [end, start].map(|u| found.polygon.jet(u));
-        let way = ends[1].point - ends[0].point;
-        let turns = ends.map(|jet| jet.tangent().map_or(PI, |it| it.angle_between(way)));
-        // Over no way there is no angle.
-        let turns = turns.into_iter().filter(|turn| turn.is_finite());
-        let at_ends = ends.map(|jet| jet.curvature());
-        Self {
-            largest: largest_curvature(&found.polygon, [end, start]),
-            of_parts: own[0].max(own[1]),
-            at_ends: at_ends[0].max(at_ends[1]),
-            over_gap: turns.sum::<f64>() / found.gap,
-        }
-    }
+/// The smallest radius of a bridge, as text.
+fn radius(found: &Bridged) -> String {
+    significant(1.0 / found.bends.largest, 3)
 }
 
 /// Annotate the vertices of a bridge.
@@ -157,10 +121,4 @@ pub(super) fn annotations(found: &Bridged) -> Vec<Annotation> {
     vertices
         .map(|vertex| Annotation::Point(found.polygon.vertex(vertex)))
         .collect()
-}
-
-/// The parameters between which the curve depends on the bridge, or on both parts.
-pub(super) fn joint(found: &Bridged) -> [f64; 2] {
-    let degree = found.polygon.degree();
-    [found.bridge.start.saturating_sub(degree), found.bridge.end].map(|u| u as f64)
 }

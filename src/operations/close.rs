@@ -1,6 +1,6 @@
 //! A curve whose ends are joined, so that it is periodic.
 
-use super::bridge::{BRIDGE, annotations, fault, figures, found, joint, knuckle, remarks};
+use super::bridge::{BRIDGE, annotations, fault, figures, found, knuckle, remarks};
 use super::editable::open;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -60,7 +60,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     outcome.remarks.extend(remarks(&found));
     let polygons = [&curve.polygon; 2];
     let fault = fault(&found, polygons);
-    let knuckle = knuckle(&found, polygons).filter(|_| fault.is_none());
+    let knuckle = knuckle(&found).filter(|_| fault.is_none());
     outcome.warnings.extend(knuckle);
     if let Some(fault) = fault {
         let failed = Requirement::Failed { left: None };
@@ -70,6 +70,6 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             .push(format!("{fault}: move the ends apart"));
     }
     outcome.annotations = annotations(&found);
-    outcome.joint = Some(joint(&found));
+    outcome.joint = Some(found.joint);
     Ok(outcome)
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use glam::DVec3;
 
-use super::bridge::{self, BRIDGE, annotations, figures, joint};
+use super::bridge::{self, BRIDGE, annotations, figures};
 use super::composite::{Composite, Layout, Part, without_circles};
 use super::editable::open_of;
 use super::error::OperationError;
@@ -478,10 +478,10 @@ impl Joining<'_> {
         outcome.remarks.extend(bridge::remarks(&found));
         outcome.remarks.extend(locks::lost(second, &[&part]));
         outcome.annotations = annotations(&found);
-        outcome.joint = Some(joint(&found));
+        outcome.joint = Some(found.joint);
         let polygons = [&first.polygon, &part];
         let fault = bridge::fault(&found, polygons);
-        let knuckle = bridge::knuckle(&found, polygons).filter(|_| fault.is_none());
+        let knuckle = bridge::knuckle(&found).filter(|_| fault.is_none());
         outcome.warnings.extend(knuckle);
         let size = BezierPolygon::from_float(&second.polygon).size();
         if changed.deviation > FAR * size {

@@ -278,15 +278,15 @@ fn bridged(
         second_moves: false,
     };
     let found = found(join(parts[0], parts[1], &wanted, progress))?;
-    let fault = bridge::fault(&found, parts).or_else(|| bridge::spike(&found, parts));
+    let fault = bridge::fault(&found, parts).or_else(|| bridge::spike(&found));
     let symmetric = found.polygon.symmetrised(mirror)?;
     Ok(Whole {
-        joint: bridge::joint(&found),
+        joint: found.joint,
         method: "bridge",
         // Both parts have as many segments, so that the bridge lies in the middle.
         off: found.polygon.deviation(&symmetric)?,
         bounded: true,
-        knuckle: bridge::knuckle(&found, parts).filter(|_| fault.is_none()),
+        knuckle: bridge::knuckle(&found).filter(|_| fault.is_none()),
         fault: fault
             .map(|fault| format!("{fault}: bring the end to the axis, perpendicular to it")),
         polygon: symmetric,

@@ -63,6 +63,36 @@ fn no_bridge_turns_back_in_a_cusp() {
     assert!(!outcome.reached || radius > 0.05, "{radius:e}");
 }
 
+#[test]
+fn parts_of_a_polygon_with_a_gap_of_up_to_three_segments_give_it_back() {
+    let mut random = Random(11);
+    for gap in 1..=3 {
+        let whole: Vec<DVec3> = (0..16)
+            .map(|index| {
+                let angle = 0.2 * f64::from(index);
+                (10.0 + angle + 0.1 * random.between(-1.0, 1.0))
+                    * DVec3::new(angle.cos(), angle.sin(), 0.0)
+            })
+            .collect();
+        let part = |name: &str, vertices: &[DVec3]| {
+            let polygon = FloatPolygon::new(5, vertices.to_vec(), None, false);
+            Curve::new(name, polygon.expect("a polygon"))
+        };
+        let turned: Vec<DVec3> = whole[8 - 5 + gap..].iter().rev().copied().collect();
+        let parts = [part("a", &whole[..8]), part("b", &turned)];
+        let document = Document::from_curves(parts);
+        let given = [
+            ("method", Value::Choice(2)),
+            ("first-end", Value::Choice(2)),
+            ("second-end", Value::Choice(2)),
+        ];
+        let (outcome, after, report) = join(&document, &given);
+        assert!(outcome.reached, "{}", report.text());
+        assert_eq!(only(&after).polygon.vertices(), whole, "gap {gap}");
+        assert!(report.text().contains("Bridge vertices: 0"), "gap {gap}");
+    }
+}
+
 /// Whether some vertices of a polygon are those of another, from a number on, to the bit.
 fn has_at(polygon: &FloatPolygon, offset: usize, part: &FloatPolygon) -> bool {
     let found = &polygon.vertices()[offset..][..part.vertices().len()];
@@ -661,7 +691,12 @@ fn a_gap_of_one_segment_is_bridged_by_halved_segments() {
     for degree in 3..=6 {
         let [first, second] = cut_arc(&mut random, degree, Continuity::G3);
         let parts = [&first.polygon, &second.polygon];
-        let short = parts[1].split(1.0, 0).expect("two parts").1.polygon;
+        let mut short = parts[1].split(1.0, 0).expect("two parts").1.polygon;
+        // Too little to be seen, and enough that the parts share no vertex.
+        let nudged = 1e-9 * DVec3::X;
+        let moves = short.vertices().iter().map(|vertex| *vertex + nudged);
+        let moves: Vec<(usize, DVec3)> = moves.enumerate().collect();
+        short.move_vertices(moves).expect("in range");
         let follower = arc("third", degree, 0.0, 60.0);
         let curves = [first.clone(), Curve::new("second", short), follower];
         let mut document = Document::from_curves(curves);

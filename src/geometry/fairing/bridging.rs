@@ -6,6 +6,7 @@ use std::ops::Range;
 use glam::{DVec2, DVec3, DVec4};
 use thiserror::Error;
 
+use super::bends::Bends;
 use super::counts::{ShapeCounts, counted, domain, seen};
 use super::objective::Measure;
 use super::problem::Problem;
@@ -47,6 +48,9 @@ const LENGTH: f64 = 1e-3;
 /// How often the segments of both parts are halved so that a bridge fits into the gap.
 const MOST_HALVINGS: usize = 4;
 
+/// A bridge with more vertices counts only if its excess of curvature is this share of the other's, or less.
+const MILDER: f64 = 0.8;
+
 /// Request for a bridge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Bridge {
@@ -63,6 +67,10 @@ pub struct Bridged {
     pub polygon: FloatPolygon,
     /// The numbers of the bridge's vertices.
     pub bridge: Range<usize>,
+    /// The parameters of the ends that are joined.
+    pub joint: [f64; 2],
+    /// How sharply it bends between them.
+    pub bends: Bends,
     /// The proved features of the segments that depend on the bridge.
     pub counts: ShapeCounts,
     /// The number of undecided places, cusps included.
@@ -115,16 +123,16 @@ pub enum BridgeError {
 /// Where the second part moves, legs, curvatures and torsion angles of the bridge are free of each
 /// other, and each sequence is the discrete spline between those of the parts.
 ///
-/// Where the number of vertices is not given, parts that share their n vertices there, as after a
-/// cut, need none. Else numbers about as large as that of the legs that fit into the gap are tried:
+/// Where the number of vertices is not given, parts that share two to n vertices there (of degree 1 one), as those of a curve without the
+/// segments between, need none. Else numbers about as large as that of the legs that fit into the gap are tried:
 /// the most even bridge wins: with the smallest sum of the largest second differences of legs, turning
 /// and torsion angles, times 1 + the features that it shows, the number of its legs, and the square of
 /// 1 + its bending energy times its length; where the second part moves, the one with
 /// the fewest features, then the fewest vertices. The logarithms of weights go on as a cubic.
 ///
-/// A bridge has n segments at least, about as long as those beside it. Where it goes a long way round for that, or
-/// turns by half a turn more than the cubic between the ends of a short gap, the segments of both parts are halved, up
-/// to four times, until it does not.
+/// A bridge has n segments at least, about as long as those beside it. Where it goes a long way round for that,
+/// turns by half a turn more than the cubic between the ends of a short gap, or has a knuckle, the segments of both
+/// parts are halved, up to four times, until it does not; with a knuckle at every number, the mildest counts.
 ///
 /// # Errors
 /// [`BridgeError`]; a part that is periodic is [`PolygonError::PeriodicCurve`].
@@ -205,9 +213,11 @@ impl Bridged {
     /// The same curve, run through the other way.
     pub fn reversed(self) -> Self {
         let count = self.polygon.vertices().len();
+        let [from, to] = self.joint.map(|u| self.polygon.segments() as f64 - u);
         Self {
             polygon: self.polygon.reversed(),
             bridge: count - self.bridge.end..count - self.bridge.start,
+            joint: [to, from],
             ..self
         }
     }
@@ -239,19 +249,19 @@ impl Parts {
         self.first.is_planar() && self.second.is_planar()
     }
 
-    /// The composite where the parts go on from each other as they are: the last n vertices of the
-    /// first are the first ones of the second, as after a cut.
+    /// The composite where the parts are those of one polygon: the last vertices of the first, two to n, are the first
+    /// ones of the second, as after a cut.
     fn seamless(&self) -> Option<Trial> {
         let (degree, count) = (self.first.degree(), self.first.vertices().len());
-        let begin = count - degree;
-        let shared = (0..degree).all(|index| {
-            let [a, b] = [(&self.first, begin + index), (&self.second, index)]
-                .map(|(polygon, index)| (polygon.vertex(index), polygon.weight(index)));
-            a == b
-        });
+        let vertex = |polygon: &FloatPolygon, index| (polygon.vertex(index), polygon.weight(index));
+        let most = degree.min(count).min(self.second.vertices().len());
+        let shares = |shared: &usize| {
+            let mut pairs = (0..*shared).map(|index| (count - shared + index, index));
+            pairs.all(|(last, first)| vertex(&self.first, last) == vertex(&self.second, first))
+        };
+        let begin = count - (degree.min(2)..=most).rev().find(shares)?;
         // A curve that closes may have too few vertices without those.
-        let polygon = self.composite(begin, &[], self.second.vertices());
-        let polygon = polygon.ok().filter(|_| shared)?;
+        let polygon = self.composite(begin, &[], self.second.vertices()).ok()?;
         Some(Trial {
             polygon,
             bridge: begin..begin,
@@ -259,28 +269,35 @@ impl Parts {
         })
     }
 
-    /// The bridge between the parts with as few halvings as fit it into the gap, or with none if no number does.
+    /// The bridge between the parts with as few halvings as fit it into the gap without a knuckle; else the mildest
+    /// one that fits, or one without halvings.
     fn fitted(mut self, bridge: &Bridge, progress: &Progress) -> Result<Bridged, BridgeError> {
         let whole = self.bridged(bridge, progress)?;
-        if bridge.second_moves || self.fits(&whole) {
+        // Without vertices it is what the parts were cut from.
+        if bridge.second_moves || whole.bridge.is_empty() {
             return Ok(whole);
         }
-        let halvings = match bridge.vertices {
+        let most = match bridge.vertices {
             Some(_) => 0,
             None => MOST_HALVINGS,
         };
-        for halvings in 1..=halvings {
+        let mut best = self.fits(&whole).then(|| whole.clone());
+        for halvings in 1..=most {
+            if best.as_ref().is_some_and(|best| !best.bends.is_knuckle()) {
+                break;
+            }
             self.first = self.first.subdivided()?;
             self.second = self.second.subdivided()?;
             let found = self.bridged(bridge, progress)?;
-            if self.fits(&found) {
-                return Ok(Bridged { halvings, ..found });
+            let milder = |best: &Bridged| found.bends.excess() < MILDER * best.bends.excess();
+            if self.fits(&found) && best.as_ref().is_none_or(milder) {
+                best = Some(Bridged { halvings, ..found });
             }
         }
-        Ok(Bridged {
+        Ok(best.unwrap_or(Bridged {
             is_long: true,
             ..whole
-        })
+        }))
     }
 
     /// Whether a bridge goes no long way round: it is at most three times as long as the gap and the legs |C′|/n of
@@ -345,11 +362,13 @@ impl Parts {
         let proved = counted(&features, around.is_planar(), Some(stretch));
         let [end, start] = self.ends();
         let gap = end.point.distance(start.point);
-        let [from, to] = [self.first.segments(), best.bridge.end].map(|u| u as f64);
-        let length = arc_length_between(&best.polygon, from, to, LENGTH);
+        let joint = [self.first.segments(), best.bridge.end].map(|u| u as f64);
+        let length = arc_length_between(&best.polygon, joint[0], joint[1], LENGTH);
         Ok(Bridged {
+            bends: Bends::between(&best.polygon, joint),
             polygon: best.polygon,
             bridge: best.bridge,
+            joint,
             counts: proved.counts,
             undecided: proved.undecided,
             iterations,

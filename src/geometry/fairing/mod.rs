@@ -6,6 +6,7 @@
 //! conditions, a few at each end, are eliminated: with H = JᵀJ, the gradient g and the rows A of the
 //! linearised conditions c, a step is d = −H⁻¹(g + Aᵀλ) with A d = −c.
 
+pub mod bends;
 pub mod bridging;
 mod condition;
 pub mod counts;
