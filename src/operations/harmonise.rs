@@ -2,6 +2,8 @@
 
 use std::ops::Bound;
 
+use glam::DVec3;
+
 use super::editable::{check_measurable, editable};
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -250,6 +252,9 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     }
     if found.reached {
         outcome.warnings.extend(far(curve, &found));
+        outcome
+            .warnings
+            .extend(found.displaced.map(remark_on_displaced));
         outcome.remarks.extend(remark_on_lost(&found));
         outcome.remarks.extend(remark_on_many(&found, &harmony));
         let lost = follows(&found.polygon, &progress) == Some(false)
@@ -359,6 +364,12 @@ fn tail(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
         let distance = significant(distance, 3);
         format!("Vertex {vertex} moves by {distance}: allow more extrema, or refine first, to move it less")
     })
+}
+
+/// Say that an inflection lies where the curve turned before.
+fn remark_on_displaced(place: DVec3) -> String {
+    let [x, y] = [place.x, place.y].map(|it| significant(it, 4));
+    format!("An inflection moves to {x}, {y}, where the curve turned: ask for fewer inflections")
 }
 
 /// Say how many of the prominent features are left, if not all of them.

@@ -431,6 +431,65 @@ fn a_fit_leaves_locked_vertices_in_their_places() {
     assert!(fitted > 0);
 }
 
+/// The AG35 section with noise of 3e-4, fitted without conditions, degree 5: twenty extrema and four inflections, two of
+/// them of a small bump below.
+const NOISY: [(f64, f64); 35] = [
+    (1.618779, -0.084092),
+    (1.193266, -0.030343),
+    (0.976445, 0.005277),
+    (0.852532, 0.026803),
+    (0.686831, 0.053706),
+    (0.592292, 0.063291),
+    (0.467413, 0.078385),
+    (0.390692, 0.083142),
+    (0.304785, 0.089599),
+    (0.238395, 0.085531),
+    (0.187656, 0.084046),
+    (0.132167, 0.079814),
+    (0.092538, 0.074242),
+    (0.059576, 0.065144),
+    (0.035443, 0.057692),
+    (0.016895, 0.048509),
+    (0.005070, 0.039754),
+    (-0.002067, 0.031599),
+    (-0.000640, 0.025259),
+    (0.002710, 0.020031),
+    (0.012509, 0.014827),
+    (0.029221, 0.011122),
+    (0.054324, 0.009096),
+    (0.084548, 0.005396),
+    (0.127705, 0.002620),
+    (0.184009, -0.001229),
+    (0.248974, -0.000280),
+    (0.328516, -0.001198),
+    (0.421362, -0.001108),
+    (0.529995, -0.000843),
+    (0.660935, 0.000570),
+    (0.814063, 0.000645),
+    (0.992566, 0.000838),
+    (1.204901, -0.000017),
+    (1.457166, -0.000047),
+];
+
+#[test]
+fn no_inflection_moves_into_the_nose() {
+    let polygon = FloatPolygon::planar(5, &NOISY).expect("a polygon");
+    let wish = Harmony {
+        ends: [Held::Direction; 2],
+        inflections: None,
+        largest_deviation: Some(0.05),
+        ..asked(3, 0)
+    };
+    let found = harmonise(&polygon, &wish, &Progress::default()).expect("a result");
+    assert!(found.reached && found.displaced.is_none());
+    let features = Features::proved(&found.polygon, |_| true).expect("a proof");
+    for (u, _) in features.places(Feature::Inflection) {
+        let place = found.polygon.point(u[0]);
+        assert!(place.x > 0.2, "{place}");
+    }
+    assert!(off(&found.polygon, &polygon) <= 5e-4);
+}
+
 /// A noisy ellipse of 44 unit legs and degree 5, whose curvature is monotone over the seam, and the
 /// stretch where it is.
 fn noisy_ellipse(random: &mut Random) -> (FloatPolygon, [f64; 2]) {

@@ -1,8 +1,10 @@
 //! What harmonising is asked, and what it returns.
 
+use glam::DVec3;
 use thiserror::Error;
 
 use super::counts::ShapeCounts;
+use super::displaced_inflection::displaced_inflection;
 use super::requirement::Requirement;
 use crate::geometry::distance::MeasuredDeviation;
 use crate::geometry::error::PolygonError;
@@ -14,6 +16,9 @@ use crate::geometry::progress::Progress;
 
 /// A curve without some of the features that stand out must be so many times nearer than one with all of them.
 const LOST: f64 = 3.0;
+
+/// A curve with an inflection where it turned before must be so many times nearer than one without.
+const DISPLACED: f64 = 3.0;
 
 /// A fitted curve, whose vertices may lie anywhere, must be so many times nearer than the least change of them.
 const REFITTED: f64 = 2.0;
@@ -85,6 +90,8 @@ pub struct Harmonised {
     /// Whether the curve was fitted to the old one instead, because the least change did not do or moves it
     /// farther.
     pub refitted: bool,
+    /// An inflection that lies where the curve turned before.
+    pub displaced: Option<DVec3>,
 }
 
 /// Why a curve cannot be harmonised.
@@ -136,7 +143,12 @@ impl Harmonised {
         } else {
             1.0
         };
-        let price = refitted * folded * self.priced(self.deviation);
+        let displaced = if self.displaced.is_some() {
+            DISPLACED
+        } else {
+            1.0
+        };
+        let price = refitted * folded * displaced * self.priced(self.deviation);
         (!self.reached, flung(before, &self.polygon).is_some(), price)
     }
 
@@ -149,6 +161,20 @@ impl Harmonised {
     /// The number of requested features that the curve has too few of.
     pub(super) fn lacking(&self) -> usize {
         self.counts.lacking(self.request)
+    }
+
+    /// Look for an inflection that the curve before, with these features, did not have there.
+    pub(super) fn with_displaced(
+        self,
+        before: &FloatPolygon,
+        of_before: &Features,
+        progress: &Progress,
+    ) -> Self {
+        let features = Features::proved(&self.polygon, |_| !progress.is_cancelled());
+        let displaced = features.and_then(|features| {
+            displaced_inflection([before, &self.polygon], [of_before, &features])
+        });
+        Self { displaced, ..self }
     }
 
     /// Measure how far the curve is from the one that it was.

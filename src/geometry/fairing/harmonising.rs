@@ -55,7 +55,7 @@ const ORDERS: [usize; 2] = [2, 3];
 /// features are those asked for, then for the largest such ε; m = 2 and 3 are tried, and the smaller
 /// move is kept. Rational curves keep their weights. Where that moves a planar curve by more than 1e-4 of its size, or
 /// does not do, a curve with these features is fitted to it, and the nearer one is kept: one whose polygon folds only if
-/// it is 4 times nearer.
+/// it is 4 times nearer, one with an inflection where the curve turned only if it is 3 times nearer.
 ///
 /// # Errors
 /// [`HarmonyError`].
@@ -67,13 +67,15 @@ pub fn harmonise(
     let Some(kept) = fit_conditions(polygon, harmony) else {
         return least_change(polygon, harmony, progress);
     };
-    let mut best = least_change(polygon, harmony, &progress.hurried(LEAST_CHANGE))?;
+    let own = prove(polygon, progress)?;
+    let best = least_change(polygon, harmony, &progress.hurried(LEAST_CHANGE))?;
+    let mut best = best.with_displaced(polygon, &own, progress);
     let is_near = best.deviation <= NEAR * polygon.size();
-    if best.reached && is_near && best.lacking() == 0 {
+    if best.reached && is_near && best.lacking() == 0 && best.displaced.is_none() {
         return Ok(best);
     }
     let iterations = best.iterations;
-    let fitted = fitted(polygon, harmony, kept, &best, progress);
+    let fitted = fitted(polygon, &own, harmony, kept, &best, progress);
     if !fitted.is_empty() {
         best.measure(polygon, progress);
     }
@@ -155,6 +157,7 @@ pub fn least_change(
         bounded: true,
         iterations: 0,
         refitted: false,
+        displaced: None,
     };
     if unchanged.reached {
         return Ok(unchanged);
@@ -579,6 +582,7 @@ impl Search<'_> {
                 bounded: true,
                 iterations: self.iterations,
                 refitted: false,
+                displaced: None,
             },
         };
         if candidate.rank() < self.best.rank() {

@@ -10,6 +10,7 @@ pub mod bends;
 pub mod bridging;
 mod condition;
 pub mod counts;
+mod displaced_inflection;
 mod dual;
 mod flow;
 pub mod following;

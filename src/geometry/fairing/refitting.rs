@@ -1,6 +1,7 @@
 //! Fits to a curve that is to be harmonised: nearly the same curve with the features asked for.
 
 use super::counts::counted;
+use super::displaced_inflection::displaced_inflection;
 use super::harmonised::{Harmonised, Harmony, Held, farthest_move, flung, folds};
 use super::joint_correction::{Disturbance, correct_jointly};
 use super::requirement::{Check, PlaceRequest, Requirement};
@@ -44,6 +45,7 @@ pub(super) fn fit_conditions(
 /// Curves that are fitted as a whole to the old one, have the features asked for and do not move too far.
 pub(super) fn fitted(
     polygon: &FloatPolygon,
+    own: &Features,
     harmony: &Harmony,
     kept: [Option<usize>; 2],
     known: &Harmonised,
@@ -64,6 +66,7 @@ pub(super) fn fitted(
         let refitted = with_ends(refitted, &requirements, locked, progress);
         let features = Features::proved(&refitted, |_| !progress.is_cancelled())?;
         let found = counted(&features, true, None);
+        let displaced = displaced_inflection([polygon, &refitted], [own, &features]);
         let measured = MeasuredDeviation::between(&refitted, polygon, progress).ok()?;
         let limit = Requirement::Limit {
             found: measured.largest,
@@ -82,33 +85,37 @@ pub(super) fn fitted(
             bounded: measured.bounded,
             iterations: 0,
             refitted: true,
+            displaced,
         })
     };
     // A fit that does not look at inflections often has as many as are asked for, and is found where one that forces
     // them is not; where no number is given, fewer will do.
-    let own = Some(known.request.inflections);
+    let mut inflections = known.request.inflections;
     let mut found: Vec<Harmonised> = Vec::new();
     let mut locked = harmony.locked.to_vec();
-    // Outer vertices hardly act. Those that go far away, or fold the polygon, stay where they are in another try, at
-    // little cost.
+    let is_wild =
+        |it: &Harmonised| flung(polygon, &it.polygon).is_some() || folds(polygon, &it.polygon);
     for _ in 0..=HELD {
-        let tries = [(own, 0.5 * FIT), (None, FIT)].into_iter();
+        let tries = [(Some(inflections), 0.5 * FIT), (None, FIT)].into_iter();
         let tries = tries.filter_map(|(inflections, share)| tried(inflections, &locked, share));
         let new: Vec<Harmonised> = tries.collect();
-        let is_wild =
-            |it: &Harmonised| flung(polygon, &it.polygon).is_some() || folds(polygon, &it.polygon);
-        let are_wild = !new.is_empty() && new.iter().all(is_wild);
-        let moved = new
-            .iter()
-            .filter_map(|it| farthest_move(polygon, &it.polygon));
-        let moved: Vec<usize> = moved.map(|(vertex, _)| vertex).collect();
-        found.extend(new);
-        if !are_wild {
+        let is_good = |it: &Harmonised| it.displaced.is_none() && !is_wild(it);
+        if new.is_empty() || new.iter().any(is_good) {
+            found.extend(new);
             break;
         }
-        locked.extend(moved);
+        // Two inflections of a small bump have no place of their own when it is gone.
+        if harmony.inflections.is_none() && new.iter().any(|it| it.displaced.is_some()) {
+            inflections = inflections.saturating_sub(2);
+        }
+        // Outer vertices hardly act. Those that go far away, or fold the polygon, stay where they are in another try,
+        // at little cost.
+        let wild = new.iter().filter(|it| is_wild(it));
+        let moved = wild.filter_map(|it| farthest_move(polygon, &it.polygon));
+        locked.extend(moved.map(|(vertex, _)| vertex));
         locked.sort_unstable();
         locked.dedup();
+        found.extend(new);
     }
     found
 }
