@@ -27,7 +27,10 @@ const OTHER_WAY: f64 = 0.5;
 /// The least curvature of such an end, by the size of the curve: nobody sees less.
 const SEEN: f64 = 1.0;
 
-/// What the user may not want: a loop, bends and ends that the points do not show, and vertices far away.
+/// Points so far off the curve, by its size, are told if the tolerance is smaller.
+const FAR: f64 = 0.01;
+
+/// What the user may not want: a loop, points far off, bends and ends that the points do not show, and vertices far away.
 pub(super) fn warnings(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
     let crossing = found.crossing.map(|at| {
         let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));
@@ -43,9 +46,19 @@ pub(super) fn warnings(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
         true => dives(asked, &found.polygon),
         false => Vec::new(),
     };
+    let far = far(found, size);
     let unhandy = [tails(&found.polygon), fold(&found.polygon)];
-    let told = crossing.into_iter().chain(bend).chain(dives);
+    let told = crossing.into_iter().chain(far).chain(bend).chain(dives);
     told.chain(unhandy.into_iter().flatten()).collect()
+}
+
+/// Say that points lie far off the curve.
+fn far(found: &Fitted, size: f64) -> Option<String> {
+    (found.deviation > found.tolerance.max(FAR * size)).then(|| {
+        let off = significant(found.deviation, 3);
+        let share = significant(100.0 * found.deviation / size, 2);
+        format!("Points lie up to {off} off the curve, {share} % of its size: allow more extrema or vertices")
+    })
 }
 
 /// Say which ends bend much more than the rest of the curve, if their curvature is not asked for.

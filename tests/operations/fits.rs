@@ -381,6 +381,18 @@ fn a_piece_that_has_no_fit_is_named() {
 }
 
 #[test]
+fn points_far_off_the_curve_are_told() {
+    for (extrema, is_told) in [(1.0, true), (2.0, false)] {
+        let found = report(wave(60), &[("extrema", extrema)]).expect("a fit");
+        let told = found
+            .warnings
+            .iter()
+            .any(|it| it.starts_with("Points lie up to "));
+        assert_eq!(told, is_told, "{extrema}: {:?}", found.warnings);
+    }
+}
+
+#[test]
 fn an_end_that_dives_between_noisy_points_is_told() {
     // Points of an arc with noise; where the tail of the last ones leads inwards the curvature dives.
     let arc = |bent: f64| -> Vec<DVec3> {
