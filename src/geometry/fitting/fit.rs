@@ -58,6 +58,9 @@ const MORE_TIME: Duration = Duration::from_millis(500);
 /// So long what asking for each number of extrema brings is looked for, beside the fewest.
 const EACH_TIME: Duration = Duration::from_secs(3);
 
+/// A handy fit may explain the points worse by this factor, in the RMS, than one that is not.
+const HANDIER: f64 = 1.25;
+
 /// A fit that does not cross itself may be farther off by this factor than one that does.
 const ABOUT: f64 = 1.25;
 
@@ -68,6 +71,12 @@ const RELEASED: [usize; 2] = [3, 1];
 /// below it also patterns of smoothed curves.
 const LADDER: usize = 4;
 const LADDER_TIME: Duration = Duration::from_secs(2);
+
+/// From this number of extrema on, a fit that misses the tolerance by this factor is also begun at those with all smaller
+/// numbers, so long at most: fewer extrema are seldom near enough.
+const SEARCHED: usize = 3;
+const MISSED: f64 = 2.0;
+const NEARER_TIME: Duration = Duration::from_secs(3);
 
 /// The search for the fewest extrema ends where so many numbers in a row come no nearer than this share: fewer where
 /// the points are within so many times their noise, and more where they are not. A shape with four equal waves comes no
@@ -363,6 +372,28 @@ impl Fit<'_> {
         }
     }
 
+    /// A fit that is nearer than a level with so many extrema, begun at those with all smaller numbers.
+    fn nearer(&self, extrema: usize, level: Option<&Level>) -> Option<Level> {
+        let progress = self.progress.limited(NEARER_TIME);
+        let fit = Fit {
+            progress: &progress,
+            ..*self
+        };
+        let (step, _) = self.numbers();
+        let mut search = Search::default();
+        for fewer in (extrema % step..extrema).step_by(step) {
+            fit.searched(fewer, levels::FAR, &mut search);
+        }
+        let tolerance = Some(self.prepared.tolerance);
+        let levels = fit
+            .task(extrema, tolerance)
+            .levels(&search.fewer(extrema), &|_| ());
+        let (found, _) = fit.refined_choice(extrema, levels, true);
+        found.filter(|found| {
+            level.is_none_or(|level| found.rms < level.rms && found.largest < level.largest)
+        })
+    }
+
     /// The straight line that the points lie on: its vertices are even to the last digit, so that nothing bends.
     fn straight(&self) -> Option<Level> {
         let (prepared, asked) = (self.whole, self.asked);
@@ -431,10 +462,14 @@ impl Fit<'_> {
     }
 
     /// Without a tolerance the search ends where the points are near enough for it, and a wished number of extrema
-    /// where they are as near as they get: tell what asking for each number brings, the nearest numbers first.
+    /// where they are as near as they get: tell what asking for each number brings, the nearest numbers first. One that
+    /// is near enough with fewer extrema, or with a handier polygon, takes the place of the best.
     fn ask_for_each(&self, search: &mut Search) {
-        let is_wanted = self.asked.lists_trade_off && self.asked.tolerance.is_none();
-        let Some(best) = search.best.as_ref().filter(|_| is_wanted) else {
+        let is_wanted = |best: &&Level| {
+            let lists = self.asked.lists_trade_off;
+            self.asked.tolerance.is_none() && (lists || !self.task(0, None).is_handy(best))
+        };
+        let Some(best) = search.best.as_ref().filter(is_wanted) else {
             return;
         };
         let chosen = best.start.slopes.cuts.len();
@@ -444,16 +479,27 @@ impl Fit<'_> {
             ..*self
         };
         let mut rows: Vec<&mut TradeOff> = search.trade_off.iter_mut().collect();
+        rows.retain(|row| self.asked.lists_trade_off || row.extrema == chosen);
         rows.sort_by_key(|row| row.extrema.abs_diff(chosen));
         for row in rows {
-            let (_, reached) = asking.exactly(row.extrema, false);
+            let (level, reached) = asking.exactly(row.extrema, false);
             if progress.is_cancelled() {
                 break;
             }
             if let Some(own) = reached.last().filter(|it| it.extrema == row.extrema) {
                 *row = *own;
             }
+            let is_better = |level: &Level| self.is_fairer(level, search.best.as_ref());
+            search.best = level.filter(is_better).or(search.best.take());
         }
+    }
+
+    /// Whether a level is near enough, and has fewer extrema than another one, or as many and a handier polygon.
+    fn is_fairer(&self, level: &Level, other: Option<&Level>) -> bool {
+        let task = self.task(0, None);
+        let price = |level: &Level| (level.start.slopes.cuts.len(), !task.is_handy(level));
+        level.largest <= self.prepared.tolerance
+            && other.is_none_or(|other| price(level) < price(other))
     }
 
     /// The nearest fit with just so many extrema, and what it and those that begin it reach.
@@ -479,7 +525,11 @@ impl Fit<'_> {
         let is_begun = !is_few || !fewer.is_empty();
         let begun = is_begun.then(|| find(&fewer, is_shown && !is_few));
         let found = plain.into_iter().chain(begun.flatten());
-        let level = self.chosen(found.collect(), keeps);
+        let mut level = self.chosen(found.collect(), keeps);
+        let is_far = |it: &Level| it.largest > MISSED * self.prepared.tolerance;
+        if !keeps && extrema >= SEARCHED && level.as_ref().is_none_or(is_far) {
+            level = self.nearer(extrema, level.as_ref()).or(level);
+        }
         reached.extend(level.as_ref().map(|level| self.trade_off(extrema, level)));
         (level, reached)
     }
@@ -753,8 +803,9 @@ impl Fit<'_> {
         }
     }
 
-    /// Of ever nearer levels the first handy one that keeps the tolerance if there is one, or else the one that explains the points best
-    /// for its size (generalised cross validation: Craven and Wahba, 1979).
+    /// Of ever nearer levels the first handy one that keeps the tolerance if there is one, or else the one that
+    /// explains the points best for its size (generalised cross validation: Craven and Wahba, 1979), a handy one if it
+    /// does so nearly as well.
     fn chosen(&self, levels: Vec<Level>, is_for_tolerance: bool) -> Option<Level> {
         let tolerance = self.prepared.tolerance;
         let asked = self.asked.count;
@@ -771,14 +822,18 @@ impl Fit<'_> {
         if let Some(level) = handy.or_else(|| levels.iter().find(kept)) {
             return Some(level.clone());
         }
-        match is_for_tolerance {
-            true => levels
+        if is_for_tolerance {
+            return levels
                 .into_iter()
-                .min_by(|a, b| a.largest.total_cmp(&b.largest)),
-            false => levels
-                .into_iter()
-                .min_by(|a, b| score(a).total_cmp(&score(b))),
+                .min_by(|a, b| a.largest.total_cmp(&b.largest));
         }
+        let best = levels.iter().min_by(|a, b| score(a).total_cmp(&score(b)))?;
+        let most = HANDIER.powi(2) * score(best);
+        let handy = levels
+            .iter()
+            .filter(|it| score(it) <= most && task.is_handy(it));
+        let handy = handy.min_by(|a, b| score(a).total_cmp(&score(b)));
+        handy.or(Some(best)).cloned()
     }
 
     /// Show what would be chosen of the levels known so far.
