@@ -145,20 +145,31 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> Respons
     response.on_hover_text(action.tooltip_now(editor))
 }
 
-/// The commands whose names resemble the typed text, best first; all of them without a text.
+/// The commands whose names resemble the typed text, best first, or else those whose tooltips do; all of them without a
+/// text.
 fn matches(typed: &str) -> Vec<Action> {
     let all = Action::all();
     if typed.trim().is_empty() {
         return all;
     }
+    let by_name = scored(&all, typed, Action::words);
+    match by_name.is_empty() {
+        true => scored(&all, typed, Action::tooltip),
+        false => by_name,
+    }
+}
+
+/// The commands with a text that resembles the typed one, best first.
+fn scored(all: &[Action], typed: &str, text: fn(Action) -> String) -> Vec<Action> {
     let mut matcher = Matcher::new(Config::DEFAULT);
     let pattern = Pattern::parse(typed, CaseMatching::Ignore, Normalization::Smart);
     let mut buffer = Vec::new();
     let mut scored: Vec<_> = all
-        .into_iter()
+        .iter()
+        .copied()
         .filter_map(|action| {
             let label = action.label();
-            let words = action.words();
+            let words = text(action);
             let score = pattern.score(Utf32Str::new(&words, &mut buffer), &mut matcher)?;
             // Of two that match as well, what works on the document is meant, then the shorter name.
             let is_example = matches!(action, Action::OpenExample(_));

@@ -373,6 +373,12 @@ fn the_palette_finds_commands() {
     assert!(window.state().editor().sight().layers().shows(Layer::Comb));
     window.get_by_label("Comb scale");
     window.get_by_label("Comb density");
+
+    // No name has these words, a tooltip does.
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text("raise degree".to_owned()));
+    window.run();
+    window.get_by_label("Elevate degree");
 }
 
 #[test]
