@@ -215,6 +215,36 @@ fn closed_vertices_are_handles_unless_the_others_stay() {
 }
 
 #[test]
+fn a_press_on_an_end_takes_it_and_not_a_vertex_beside_it() {
+    let mut script = Script::example("arc");
+    let viewport = script.editor.view().viewport().clone();
+    // The end lies 6 points from the second vertex.
+    let places = [
+        (300, 282),
+        (400, 300),
+        (500, 282),
+        (600, 330),
+        (700, 420),
+        (750, 520),
+    ];
+    let vertices = places.map(|(x, y)| {
+        let place = viewport.to_model(DVec2::new(f64::from(x), f64::from(y)));
+        (place.x, place.y)
+    });
+    script.set_polygon(FloatPolygon::planar(3, &vertices).expect("a polygon"));
+    let before = script.polygon();
+    let (end, vertex) = (at_closed(&script, 0), script.at_vertex(1));
+    assert!((end.distance(vertex) - 6.0).abs() < 1e-6);
+    script.drag(end, end + BY);
+    assert!(at_closed(&script, 0).distance(end + BY) <= FOLLOWED);
+    script.command(Command::Undo);
+    assert_eq!(script.polygon(), before);
+    script.drag(vertex, vertex + BY);
+    assert!(script.at_vertex(1).distance(vertex + BY) <= FOLLOWED);
+    assert_eq!(moved(&before, &script.polygon()), 1);
+}
+
+#[test]
 fn live_harmony_begins_where_the_curve_is() {
     // The neighbours reach both ends.
     let mut script = Script::example("arc");

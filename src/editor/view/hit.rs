@@ -24,6 +24,10 @@ const APART: f64 = 12.0;
 /// Nearer to the active curve than this, in screen points, a press is meant for it, and for no vertex of another one.
 const UNDER: f64 = 0.5 * REACH;
 
+/// A vertex of the closed S-polygon that is nearer than one of the float S-polygon by more than this, in screen points, is
+/// meant by a press.
+const NEARER: f64 = 2.0;
+
 /// How much farther than the active curve another one counts, and a reference than that, in screen points.
 const BEHIND: f64 = 2.0;
 
@@ -56,7 +60,8 @@ pub struct LegHit {
 
 impl<'a> Sight<'a> {
     /// Find the vertex under a place; of several that overlap, the one that Tab has chosen. Those of the active curve
-    /// come first, and where it runs under the pointer itself, vertices of others come after it.
+    /// come first, and where it runs under the pointer itself, vertices of others come after it. Where a vertex of the
+    /// closed S-polygon is clearly nearer there is none.
     pub(in crate::editor) fn vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
         if !self.shown.layers.shows(Layer::Float) {
             return None;
@@ -71,6 +76,14 @@ impl<'a> Sight<'a> {
             let by_activity = is_other(one).cmp(&is_other(other));
             by_activity.then(a.total_cmp(b)).then(other.cmp(one))
         });
+        let clamped = self.clamped_within(place, REACH);
+        let is_beside = |(nearest, _): &(f64, VertexId)| {
+            let margin = NEARER * self.viewport().pixel();
+            clamped.is_some_and(|(distance, _)| distance + margin < *nearest)
+        };
+        if self.shown.cycle == 0 && found.first().is_some_and(is_beside) {
+            return None;
+        }
         let has_own = found.first().is_some_and(|(_, id)| !is_other(id));
         let behind_curve = usize::from(!has_own && self.is_active_under(place));
         let chosen = self.shown.cycle % (found.len() + behind_curve);
@@ -94,12 +107,12 @@ impl<'a> Sight<'a> {
     pub(in crate::editor) fn is_beside_vertex(&self, place: DVec2) -> bool {
         let float = self.shown.layers.shows(Layer::Float);
         (float && self.vertices_within(place, BESIDE).next().is_some())
-            || self.clamped_vertex_within(place, BESIDE).is_some()
+            || self.clamped_within(place, BESIDE).is_some()
     }
 
     /// Find the vertex of the active curve's closed S-polygon under a place, if it is shown.
     pub(in crate::editor) fn clamped_vertex(&self, place: DVec2) -> Option<(CurveId, usize)> {
-        self.clamped_vertex_within(place, REACH)
+        self.clamped_within(place, REACH).map(|(_, id)| id)
     }
 
     /// The vertices within some screen points of a place, with their distances in the model. A polygon that
@@ -147,7 +160,8 @@ impl<'a> Sight<'a> {
         })
     }
 
-    fn clamped_vertex_within(&self, place: DVec2, reach: f64) -> Option<(CurveId, usize)> {
+    /// The nearest vertex of the closed S-polygon within some screen points of a place, with its distance in the model.
+    fn clamped_within(&self, place: DVec2, reach: f64) -> Option<(f64, VertexId)> {
         if !self.shown.layers.shows(Layer::Clamped) {
             return None;
         }
@@ -161,7 +175,7 @@ impl<'a> Sight<'a> {
         let outlines = &self.view.outlines.get(id)?.clamped;
         let spacing = outlines.seen(chain).spacing(index);
         let is_seen = density::disc(spacing * self.viewport().scale) > 0.0;
-        (is_seen && nearest <= reach * self.viewport().pixel()).then_some((id, index))
+        (is_seen && nearest <= reach * self.viewport().pixel()).then_some((nearest, (id, index)))
     }
 
     /// Find the place on a curve or on a reference under a place on the canvas. Where a curve follows

@@ -349,7 +349,7 @@ impl Tool for NewVertexTool {
             (NewVertex::IntoLeg, None) if !context.settings.vertices_stay => {
                 match self.told(context) {
                     Some(told) => return format!("Click or drag to insert a vertex. {told}"),
-                    None => "Click on a leg to insert a vertex: the curve hardly moves; Esc ends",
+                    None => "Click on the curve or on a leg to insert a vertex; Esc ends",
                 }
             }
             (NewVertex::IntoLeg, None) => {
