@@ -55,10 +55,21 @@ pub(super) fn figures(found: &Bridged) -> Vec<Figure> {
 
 /// Say that segments were halved, and what could not be proved.
 pub(super) fn remarks(found: &Bridged) -> Vec<String> {
-    let halved = (found.halvings > 0).then(|| {
-        let pieces = 1_usize << found.halvings;
-        format!("Each segment became {pieces}, so that the bridge fits into the gap")
-    });
+    let pieces = found.halvings.map(|halvings| 1_usize << halvings);
+    let halved = match pieces {
+        [1, 1] => None,
+        [first, second] if first == second => Some(format!("Each segment became {first}")),
+        [first, 1] => Some(format!("Each segment of the first curve became {first}")),
+        [1, second] => Some(format!("Each segment of the second curve became {second}")),
+        [first, second] => Some(format!(
+            "Each segment of the first curve became {first}, of the second {second}"
+        )),
+    };
+    let purpose = match found.bridge.is_empty() {
+        true => "the parts go on from each other",
+        false => "the bridge fits into the gap",
+    };
+    let halved = halved.map(|halved| format!("{halved}, so that {purpose}"));
     let undecided = (found.undecided > 0).then(|| {
         format!(
             "Features of the bridge that could not be decided: {}",

@@ -1,6 +1,7 @@
 //! A curve whose ends are joined, so that it is periodic.
 
 use super::bridge::{BRIDGE, annotations, fault, figures, found, knuckle, remarks};
+use super::crossing::new_crossing;
 use super::editable::open;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -50,7 +51,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let segments = curve.polygon.segments();
     let span = ParameterSpan {
         old: [0.0, segments as f64],
-        new: [0.0, (segments << found.halvings) as f64],
+        new: [0.0, (segments << found.halvings[0]) as f64],
     };
     let mut outcome = Outcome::renumbered(input, polygon, vec![span], Deviation::Exact)?;
     edits.append(&mut outcome.edits);
@@ -62,6 +63,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let fault = fault(&found, polygons);
     let knuckle = knuckle(&found).filter(|_| fault.is_none());
     outcome.warnings.extend(knuckle);
+    let crossing = new_crossing(&[&curve.polygon], &found.polygon);
+    outcome.warnings.extend(crossing);
     if let Some(fault) = fault {
         let failed = Requirement::Failed { left: None };
         outcome.requirements = vec![(id, vec![failed])];

@@ -31,8 +31,8 @@ pub(super) struct Composite<'a> {
     pub(super) polygon: &'a FloatPolygon,
     /// The second part in its direction and degree, where it was.
     pub(super) second: &'a FloatPolygon,
-    /// How often the segments of both parts were halved.
-    pub(super) halvings: usize,
+    /// How often the segments of each part were halved.
+    pub(super) halvings: [usize; 2],
     /// Where points of both parts, the second in its direction, are on the composite; `None` where it has the
     /// vertices of both.
     pub(super) tracks: Option<&'a [Track; 2]>,
@@ -45,18 +45,20 @@ impl Composite<'_> {
         if self.tracks.is_some() {
             return [0; 2];
         }
-        let length = |part: &FloatPolygon| (part.segments() << self.halvings) + part.degree();
+        let length =
+            |part: &FloatPolygon, halvings: usize| (part.segments() << halvings) + part.degree();
+        let [of_first, of_second] = self.halvings;
         let count = self.polygon.vertices().len();
         if self.layout.follows {
-            [0, count - length(self.second)]
+            [0, count - length(self.second, of_second)]
         } else {
-            [count - length(&self.parts[0].1.polygon), 0]
+            [count - length(&self.parts[0].1.polygon, of_first), 0]
         }
     }
 
-    /// By how much parameters run faster on the composite.
-    fn pace(&self) -> f64 {
-        (1_usize << self.halvings) as f64
+    /// By how much the parameters of a part run faster on the composite.
+    fn pace(&self, part: usize) -> f64 {
+        (1_usize << self.halvings[part]) as f64
     }
 
     /// Where a parameter of a part, the second in its direction, is on the composite.
@@ -64,7 +66,7 @@ impl Composite<'_> {
         let is_first = (part == 0) == self.layout.follows;
         match self.tracks {
             Some(tracks) => tracks[usize::from(!is_first)].at(u),
-            None => self.offsets()[part] as f64 + self.pace() * u,
+            None => self.offsets()[part] as f64 + self.pace(part) * u,
         }
     }
 
@@ -88,9 +90,9 @@ impl Composite<'_> {
             edits.extend(without_match(self.document, other, end));
         }
         let locked = &first.locked_vertices;
-        let halved = |polygon: &FloatPolygon, vertex| halved(polygon, self.halvings, vertex);
-        let locked =
-            locked.renumbered(|vertex| Some(first_offset + halved(&first.polygon, vertex)));
+        let [of_first, of_second] = self.halvings;
+        let locked = locked
+            .renumbered(|vertex| Some(first_offset + halved(&first.polygon, of_first, vertex)));
         let segments = first.polygon.segments();
         let span = |old: [usize; 2]| {
             let old = old.map(|u| u as f64);
@@ -111,7 +113,7 @@ impl Composite<'_> {
         });
         let kept = second.locked_vertices.carried(&second.polygon, self.second);
         let kept = kept.iter();
-        let kept = kept.map(|vertex| second_offset + halved(self.second, vertex));
+        let kept = kept.map(|vertex| second_offset + halved(self.second, of_second, vertex));
         let kept: Vec<usize> = kept.collect();
         if !kept.is_empty() {
             edits.push(Edit::SetVerticesLocked {

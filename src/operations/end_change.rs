@@ -2,10 +2,11 @@
 
 use std::f64::consts::PI;
 
+use super::crossing::new_crossing;
 use super::error::OperationError;
 use crate::document::Curve;
 use crate::geometry::end_correction::{EndDifference, EndTarget};
-use crate::geometry::{BezierPolygon, End, FloatPolygon, curve_crossing, significant};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, significant};
 
 /// A curve that moves more than so many times as far as its ends has changed as a whole. Spreading a
 /// correction evenly over the polygon stays below.
@@ -44,16 +45,8 @@ pub(super) fn warnings_of_change(
     if let Some(turned) = turned {
         warnings.push(format!("{turned}: {advice}, or turn the target direction"));
     }
-    let crosses = |polygon: &FloatPolygon| {
-        let planar = Some(polygon).filter(|it| it.is_planar());
-        planar.and_then(curve_crossing)
-    };
-    if let (Some(at), None) = (crosses(after), crosses(before)) {
-        let [x, y] = at.to_array().map(|coordinate| significant(coordinate, 6));
-        warnings.push(format!(
-            "The curve crosses itself now, at {x}, {y}: {advice}"
-        ));
-    }
+    let crossing = new_crossing(&[before], after);
+    warnings.extend(crossing.map(|crossing| format!("{crossing}: {advice}")));
     if before.is_planar() && !after.is_planar() {
         warnings.push(
             "A target lies outside the plane z = 0: the curve becomes a curve in space".to_owned(),

@@ -362,7 +362,7 @@ fn tail(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
     let (vertex, distance) = farthest_move(before, after)?;
     (distance > FAR_MOVE * size).then(|| {
         let distance = significant(distance, 3);
-        format!("Vertex {vertex} moves by {distance}: allow more extrema, or refine first, to move it less")
+        format!("Vertex {vertex} moves by {distance}: ask for other extrema, or refine first, to move it less")
     })
 }
 

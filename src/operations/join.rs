@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::bridge::{self, BRIDGE, annotations, figures};
 use super::composite::{Composite, Layout, Part, without_circles};
+use super::crossing::new_crossing;
 use super::editable::open_of;
 use super::error::OperationError;
 use super::fit_piece::features;
@@ -483,6 +484,8 @@ impl Joining<'_> {
         let fault = bridge::fault(&found, polygons);
         let knuckle = bridge::knuckle(&found).filter(|_| fault.is_none());
         outcome.warnings.extend(knuckle);
+        let crossing = new_crossing(&polygons, &found.polygon);
+        outcome.warnings.extend(crossing);
         let size = BezierPolygon::from_float(&second.polygon).size();
         if changed.deviation > FAR * size {
             let (degree, moved) = (first.polygon.degree(), significant(changed.deviation, 3));
@@ -497,7 +500,7 @@ impl Joining<'_> {
                 .warnings
                 .push(format!("{fault}: Merge or Chain, or move the ends apart"));
         }
-        let is_plain = found.halvings == 0 && fault.is_none() && outcome.warnings.is_empty();
+        let is_plain = found.is_plain && fault.is_none() && outcome.warnings.is_empty();
         Ok((outcome, is_plain))
     }
 
@@ -574,7 +577,7 @@ impl Joining<'_> {
             layout: self.layout,
             polygon,
             second,
-            halvings: 0,
+            halvings: [0; 2],
             tracks,
         }
     }

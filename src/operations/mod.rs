@@ -13,6 +13,7 @@ mod amount;
 mod atlas;
 mod bridge;
 mod composite;
+mod crossing;
 mod cutting;
 mod degree;
 mod each;

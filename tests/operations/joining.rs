@@ -93,6 +93,58 @@ fn parts_of_a_polygon_with_a_gap_of_up_to_three_segments_give_it_back() {
     }
 }
 
+#[test]
+fn parts_cut_beside_a_knot_give_the_curve_back() {
+    let vertices: Vec<(f64, f64)> = (0..16)
+        .map(|index| {
+            let angle = 0.2 * f64::from(index);
+            ((10.0 + angle) * angle.cos(), (10.0 + angle) * angle.sin())
+        })
+        .collect();
+    let whole = FloatPolygon::planar(5, &vertices).expect("a polygon");
+    let last = whole.segments() as f64;
+    for [from, to] in [[5.0, 5.5], [4.5, 5.0], [5.25, 5.5], [6.0, 7.5]] {
+        let parts = [
+            Curve::new("a", whole.trimmed(0.0, from, 4).expect("a part").polygon),
+            Curve::new("b", whole.trimmed(to, last, 4).expect("a part").polygon),
+        ];
+        let document = Document::from_curves(parts);
+        let (outcome, after, report) = join(&document, &[]);
+        let told = report.text();
+        assert!(
+            outcome.reached && told.contains("Bridge vertices: 0"),
+            "{told}"
+        );
+        let found = &only(&after).polygon;
+        for (one, other) in [(found, &whole), (&whole, found)] {
+            let places = (0..=8 * one.segments()).map(|step| one.point(step as f64 / 8.0));
+            let off = places.map(|point| other.nearest(point).distance);
+            let off = off.fold(0.0, f64::max);
+            assert!(off <= 1e-12 * whole.size(), "{from} {to}: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn a_joined_curve_that_crosses_itself_is_told() {
+    for (start, end, is_told) in [
+        ([-5.37, 5.0], [-5.37, -12.1], true),
+        ([5.0, -5.0], [5.0, -17.0], false),
+    ] {
+        let document =
+            Document::from_curves([line("a", [-10.0, 0.0], [0.0, 0.0]), line("b", start, end)]);
+        let given = [
+            ("method", Value::Choice(2)),
+            ("first-end", Value::Choice(2)),
+            ("second-end", Value::Choice(1)),
+        ];
+        let (_, after, report) = join(&document, &given);
+        assert_eq!(curve_crossing(&only(&after).polygon).is_some(), is_told);
+        let told = report.warnings.join(" ").contains("crosses itself now");
+        assert_eq!(told, is_told, "{}", report.text());
+    }
+}
+
 /// Whether some vertices of a polygon are those of another, from a number on, to the bit.
 fn has_at(polygon: &FloatPolygon, offset: usize, part: &FloatPolygon) -> bool {
     let found = &polygon.vertices()[offset..][..part.vertices().len()];

@@ -48,8 +48,17 @@ const LENGTH: f64 = 1e-3;
 /// How often the segments of both parts are halved so that a bridge fits into the gap.
 const MOST_HALVINGS: usize = 4;
 
-/// A bridge with more vertices counts only if its excess of curvature is this share of the other's, or less.
-const MILDER: f64 = 0.8;
+/// Across a tight gap a bridge whose excess of curvature is larger is looked for between finer segments, too.
+const FINE: f64 = 1.5;
+
+/// Speeds at the ends with a smaller ratio count as equal.
+const UNEVEN: f64 = 1.5;
+
+/// Vertices nearer to each other than this share of the size are one: the same one from two subdivisions.
+const ONE: f64 = 1e-13;
+
+/// Twice as many vertices in both parts must make the excess of curvature so many times smaller.
+const MILDER: f64 = 1.25;
 
 /// Request for a bridge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -77,8 +86,10 @@ pub struct Bridged {
     pub undecided: usize,
     /// The number of Gauss–Newton steps in all.
     pub iterations: usize,
-    /// How often the segments of both parts were halved, which changes no part.
-    pub halvings: usize,
+    /// How often the segments of each part were halved, which changes no part.
+    pub halvings: [usize; 2],
+    /// Whether a bridge between the segments as they were fits without a knuckle, or the parts need none.
+    pub is_plain: bool,
     /// The length of the curve between the parts.
     pub length: f64,
     /// The distance of the ends.
@@ -131,8 +142,9 @@ pub enum BridgeError {
 /// the fewest features, then the fewest vertices. The logarithms of weights go on as a cubic.
 ///
 /// A bridge has n segments at least, about as long as those beside it. Where it goes a long way round for that,
-/// turns by half a turn more than the cubic between the ends of a short gap, or has a knuckle, the segments of both
-/// parts are halved, up to four times, until it does not; with a knuckle at every number, the mildest counts.
+/// turns by half a turn more than the cubic between the ends of a short gap, or bends much more than its ends, the
+/// segments of the part with the longer ones are halved until they are about as long, then those of both parts, up to
+/// four times, until it does not; if it always does, the mildest counts.
 ///
 /// # Errors
 /// [`BridgeError`]; a part that is periodic is [`PolygonError::PeriodicCurve`].
@@ -210,6 +222,12 @@ pub fn largest_jump(polygon: &FloatPolygon, vertices: &Range<usize>) -> f64 {
 }
 
 impl Bridged {
+    /// What the excess of curvature and the halvings cost: a smaller price is better.
+    fn price(&self) -> f64 {
+        let doublings = 0.5 * self.halvings.iter().sum::<usize>() as f64;
+        self.bends.excess() * MILDER.powf(doublings)
+    }
+
     /// The same curve, run through the other way.
     pub fn reversed(self) -> Self {
         let count = self.polygon.vertices().len();
@@ -255,9 +273,12 @@ impl Parts {
         let (degree, count) = (self.first.degree(), self.first.vertices().len());
         let vertex = |polygon: &FloatPolygon, index| (polygon.vertex(index), polygon.weight(index));
         let most = degree.min(count).min(self.second.vertices().len());
+        let least = ONE * self.first.size().max(self.second.size());
         let shares = |shared: &usize| {
-            let mut pairs = (0..*shared).map(|index| (count - shared + index, index));
-            pairs.all(|(last, first)| vertex(&self.first, last) == vertex(&self.second, first))
+            let pairs = (0..*shared).map(|index| (count - shared + index, index));
+            let mut pairs =
+                pairs.map(|(last, first)| [vertex(&self.first, last), vertex(&self.second, first)]);
+            pairs.all(|[(a, p), (b, q)]| a.distance(b) <= least && (p - q).abs() <= ONE * p)
         };
         let begin = count - (degree.min(2)..=most).rev().find(shares)?;
         // A curve that closes may have too few vertices without those.
@@ -271,33 +292,88 @@ impl Parts {
 
     /// The bridge between the parts with as few halvings as fit it into the gap without a knuckle; else the mildest
     /// one that fits, or one without halvings.
-    fn fitted(mut self, bridge: &Bridge, progress: &Progress) -> Result<Bridged, BridgeError> {
+    fn fitted(self, bridge: &Bridge, progress: &Progress) -> Result<Bridged, BridgeError> {
         let whole = self.bridged(bridge, progress)?;
         // Without vertices it is what the parts were cut from.
-        if bridge.second_moves || whole.bridge.is_empty() {
-            return Ok(whole);
+        if bridge.second_moves || bridge.vertices.is_some() || whole.bridge.is_empty() {
+            let is_long = !bridge.second_moves && !whole.bridge.is_empty() && !self.fits(&whole);
+            return Ok(Bridged { is_long, ..whole });
         }
-        let most = match bridge.vertices {
-            Some(_) => 0,
-            None => MOST_HALVINGS,
+        let fits = self.fits(&whole);
+        let is_plain = fits && !whole.bends.is_knuckle();
+        let is_tight = self.is_tight();
+        let is_fine = |found: &Bridged| match is_tight {
+            true => found.bends.excess() <= FINE,
+            false => !found.bends.is_knuckle(),
         };
-        let mut best = self.fits(&whole).then(|| whole.clone());
-        for halvings in 1..=most {
-            if best.as_ref().is_some_and(|best| !best.bends.is_knuckle()) {
+        let mut best = fits.then(|| whole.clone());
+        for halvings in self.halvings() {
+            if best.as_ref().is_some_and(is_fine) {
                 break;
             }
-            self.first = self.first.subdivided()?;
-            self.second = self.second.subdivided()?;
-            let found = self.bridged(bridge, progress)?;
-            let milder = |best: &Bridged| found.bends.excess() < MILDER * best.bends.excess();
-            if self.fits(&found) && best.as_ref().is_none_or(milder) {
-                best = Some(Bridged { halvings, ..found });
+            let found = self.halved(halvings)?.bridged(bridge, progress)?;
+            let is_seamless = found.bridge.is_empty();
+            let found = Bridged { halvings, ..found };
+            let milder = |best: &Bridged| found.price() < best.price();
+            if is_seamless || (self.fits(&found) && best.as_ref().is_none_or(milder)) {
+                best = Some(found);
+            }
+            if is_seamless {
+                break;
             }
         }
-        Ok(best.unwrap_or(Bridged {
-            is_long: true,
-            ..whole
-        }))
+        Ok(match best {
+            Some(best) => {
+                let is_plain = is_plain || best.bridge.is_empty();
+                Bridged { is_plain, ..best }
+            }
+            None => Bridged {
+                is_long: true,
+                ..whole
+            },
+        })
+    }
+
+    /// How often the segments of both parts are halved, in the order of the tries.
+    fn halvings(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
+        let even = match self.closes {
+            true => [0; 2],
+            false => self.even_halvings(),
+        };
+        let all = (0..=MOST_HALVINGS).map(move |more| even.map(|own| own + more));
+        all.filter(|halvings| *halvings != [0; 2])
+    }
+
+    /// How often the segments of the part with the longer ones at its end are halved to be about as long.
+    fn even_halvings(&self) -> [usize; 2] {
+        let ratio = {
+            let [end, start] = self.ends();
+            end.speed() / start.speed()
+        };
+        let needed = |ratio: f64| match ratio.is_finite() && ratio > UNEVEN {
+            true => (ratio.log2().round() as usize).min(MOST_HALVINGS),
+            false => 0,
+        };
+        [needed(ratio), needed(ratio.recip())]
+    }
+
+    /// The parts with halved segments.
+    fn halved(&self, [first, second]: [usize; 2]) -> Result<Self, PolygonError> {
+        let halved = |part: &FloatPolygon, times: usize| {
+            (0..times).try_fold(part.clone(), |part, _| part.subdivided())
+        };
+        Ok(Self {
+            first: halved(&self.first, first)?,
+            second: halved(&self.second, second)?,
+            closes: self.closes,
+        })
+    }
+
+    /// Whether the gap is shorter than the n + 1 segments of a bridge would like it.
+    fn is_tight(&self) -> bool {
+        let [end, start] = self.ends();
+        let (degree, gap) = (self.first.degree() as f64, end.point.distance(start.point));
+        gap < 0.5 * (degree + 1.0) * (end.speed() + start.speed())
     }
 
     /// Whether a bridge goes no long way round: it is at most three times as long as the gap and the legs |C′|/n of
@@ -310,8 +386,7 @@ impl Parts {
         if !self.closes && found.length > LONG * chord.length() + speeds / degree {
             return false;
         }
-        let is_tight = chord.length() < 0.5 * (degree + 1.0) * speeds;
-        if !is_tight || !self.is_planar() {
+        if !self.is_tight() || !self.is_planar() {
             return true;
         }
         let slope = |jet: &Jet| chord.length() * jet.tangent().unwrap_or(DVec3::ZERO);
@@ -372,7 +447,8 @@ impl Parts {
             counts: proved.counts,
             undecided: proved.undecided,
             iterations,
-            halvings: 0,
+            halvings: [0; 2],
+            is_plain: true,
             length,
             gap,
             is_long: false,
