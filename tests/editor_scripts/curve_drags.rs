@@ -217,7 +217,7 @@ fn closed_vertices_are_handles_unless_the_others_stay() {
 #[test]
 fn a_press_on_an_end_takes_it_and_not_a_vertex_beside_it() {
     let mut script = Script::example("arc");
-    let viewport = script.editor.view().viewport().clone();
+    let viewport = *script.editor.view().viewport();
     // The end lies 6 points from the second vertex.
     let places = [
         (300, 282),
