@@ -129,7 +129,7 @@ pub(super) fn refitted(
     outcome.warnings.extend(far);
     if !keeps {
         let more = match goal.segments {
-            Some(_) => "take more vertices",
+            Some(_) => "take more vertices, give a tolerance",
             None => "give a smaller tolerance",
         };
         outcome.remarks.push(format!(

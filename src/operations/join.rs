@@ -496,9 +496,14 @@ impl Joining<'_> {
         if let Some(fault) = &fault {
             let failed = Requirement::Failed { left: None };
             outcome.requirements = vec![(self.parts[0].0, vec![failed])];
+            let [left, right] = self.in_order(&first.polygon, &part);
+            let other = match Joint::between(left, right).check(self.size, self.tolerance) {
+                Ok(()) => "Merge or Chain",
+                Err(_) => "Chain",
+            };
             outcome
                 .warnings
-                .push(format!("{fault}: Merge or Chain, or move the ends apart"));
+                .push(format!("{fault}: {other}, or move the ends apart"));
         }
         let is_plain = found.is_plain && fault.is_none() && outcome.warnings.is_empty();
         Ok((outcome, is_plain))

@@ -108,9 +108,10 @@ pub struct Track {
 pub enum MergeError {
     /// The ends are too far apart.
     #[error(
-        "the ends are {} apart, and at most {} is merged: bridge the gap",
+        "the ends are {} apart, and at most {}, {} % of the size, is merged: bridge the gap",
         significant(*.distance, 3),
-        significant(*.most, 3)
+        significant(*.most, 3),
+        100.0 * GAP
     )]
     Apart {
         /// Their distance.
