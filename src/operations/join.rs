@@ -118,6 +118,10 @@ const NEARER: f64 = 0.2;
 const FAR: f64 = 0.01;
 const FARTHER: f64 = 2.0;
 
+/// A chain that moves the second curve by more than this share of its size makes another curve of it, however wide the
+/// gap.
+const ANOTHER: f64 = 0.1;
+
 /// The time that a merged curve is looked for.
 pub(super) const MERGING: Duration = Duration::from_secs(10);
 
@@ -558,11 +562,15 @@ impl Joining<'_> {
             significant(moved, 3)
         );
         let size = BezierPolygon::from_float(&second.polygon).size();
+        let share = significant(100.0 * moved / size, 2);
         if moved > FAR * size && moved > FARTHER * joint.distance {
-            let share = significant(100.0 * moved / size, 2);
             outcome.warnings.push(format!(
                 "{told}, {share} % of its size: chain up to less, or merge"
             ));
+        } else if moved > ANOTHER * size {
+            outcome
+                .warnings
+                .push(format!("{told}, {share} % of its size: Bridge keeps both"));
         } else {
             outcome.remarks.push(told);
         }

@@ -627,6 +627,23 @@ fn three_hundred_pairs_are_merged() {
 }
 
 #[test]
+fn a_chain_that_stretches_the_second_curve_is_a_warning() {
+    for (start, is_told) in [(20.5, false), (50.0, true)] {
+        let document = Document::from_curves([
+            line("a", [0.0, 0.0], [20.0, 0.0]),
+            line("b", [start, 1.0], [start + 20.0, 5.0]),
+        ]);
+        let (_, _, report) = join(&document, &[("method", Value::Choice(3))]);
+        assert_eq!(text(&report, "method"), "chain");
+        let told = report
+            .warnings
+            .iter()
+            .any(|it| it.contains("% of its size"));
+        assert_eq!(told, is_told, "{}", report.text());
+    }
+}
+
+#[test]
 fn a_corner_is_chained_and_not_merged() {
     let document = Document::from_curves([
         line("first", [0.0, 0.0], [10.0, 0.0]),
