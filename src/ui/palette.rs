@@ -4,7 +4,7 @@ use eframe::egui::{
     Align2, Area, Context, Frame, Id, Key, Modifiers, Order, Response, Role, ScrollArea, Sense,
     TextEdit, Ui, Vec2, WidgetInfo,
 };
-use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
+use nucleo_matcher::pattern::{AtomKind, CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 
 use super::action::Action;
@@ -145,24 +145,30 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> Respons
     response.on_hover_text(action.tooltip_now(editor))
 }
 
-/// The commands whose names resemble the typed text, best first, or else those whose tooltips do; all of them without a
-/// text.
+/// The commands whose names hold the typed words, best first, or else those whose tooltips do, or whose names resemble
+/// them; all of them without a text.
 fn matches(typed: &str) -> Vec<Action> {
     let all = Action::all();
     if typed.trim().is_empty() {
         return all;
     }
-    let by_name = scored(&all, typed, Action::words);
-    match by_name.is_empty() {
-        true => scored(&all, typed, Action::tooltip),
-        false => by_name,
-    }
+    let ways: [(Text, AtomKind); 3] = [
+        (Action::words, AtomKind::Substring),
+        (Action::tooltip, AtomKind::Substring),
+        (Action::words, AtomKind::Fuzzy),
+    ];
+    let found = ways.map(|(text, kind)| scored(&all, typed, text, kind));
+    let mut found = found.into_iter().filter(|found| !found.is_empty());
+    found.next().unwrap_or_default()
 }
 
+/// A text that is searched for what is typed.
+type Text = fn(Action) -> String;
+
 /// The commands with a text that resembles the typed one, best first.
-fn scored(all: &[Action], typed: &str, text: fn(Action) -> String) -> Vec<Action> {
+fn scored(all: &[Action], typed: &str, text: Text, kind: AtomKind) -> Vec<Action> {
     let mut matcher = Matcher::new(Config::DEFAULT);
-    let pattern = Pattern::parse(typed, CaseMatching::Ignore, Normalization::Smart);
+    let pattern = Pattern::new(typed, CaseMatching::Ignore, Normalization::Smart, kind);
     let mut buffer = Vec::new();
     let mut scored: Vec<_> = all
         .iter()
