@@ -375,7 +375,12 @@ impl Fit<'_> {
     /// A fit that is nearer than a level with so many extrema, begun at those with all smaller numbers.
     fn nearer(&self, extrema: usize, level: Option<&Level>) -> Option<Level> {
         let progress = self.progress.limited(NEARER_TIME);
+        let asked = PlaneFit {
+            most: Some(self.task(extrema, None).most),
+            ..self.asked.clone()
+        };
         let fit = Fit {
+            asked: &asked,
             progress: &progress,
             ..*self
         };
