@@ -172,11 +172,11 @@ enum Command {
         #[arg(long, value_name = "N", value_parser = count)]
         count: Option<usize>,
         /// As few points as keep the polyline through them within this distance of the curve
-        #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with_all = ["count", "spacing"])]
+        #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with = "count")]
         tolerance: Option<f64>,
-        /// How a number of points is spread; cosine: densely at the ends and at the nose of a section
-        #[arg(long, value_parser = spacing_parser(), default_value = "arc-length")]
-        spacing: Spacing,
+        /// How points are spread (default arc-length); cosine: densely at the ends and the nose of a section
+        #[arg(long, value_parser = spacing_parser())]
+        spacing: Option<Spacing>,
         /// The curve or reference; needed where the file has several
         #[arg(long, value_name = "NAME")]
         curve: Option<String>,
@@ -392,7 +392,7 @@ impl Arguments {
                 });
                 let destination = destination("convert", out, to_format)?;
                 let density = points.map(|count| Density::Count(count, Spacing::ArcLength));
-                match density.or(chord.map(Density::Tolerance)) {
+                match density.or(chord.map(|it| Density::Tolerance(it, None))) {
                     Some(density) => Task::Points {
                         source,
                         destination,
@@ -427,8 +427,8 @@ impl Arguments {
                 source: source("points", input, from_format, columns)?,
                 destination: destination("points", out, to_format)?,
                 density: match (tolerance, count) {
-                    (Some(tolerance), _) => Density::Tolerance(tolerance),
-                    (None, Some(count)) => Density::Count(count, spacing),
+                    (Some(tolerance), _) => Density::Tolerance(tolerance, spacing),
+                    (None, Some(count)) => Density::Count(count, spacing.unwrap_or_default()),
                     (None, None) => {
                         let needed = "say how many points: --count N, or --tolerance T for as few as keep the polyline that near";
                         return Err(missing("points", needed));

@@ -18,8 +18,8 @@ use crate::io::WriteError;
 pub(super) enum Density {
     /// This many, spread so.
     Count(usize, Spacing),
-    /// As few as keep the polyline this near to the curve.
-    Tolerance(f64),
+    /// As few as keep the polyline this near to the curve; spread so, or with legs as long as each can be.
+    Tolerance(f64, Option<Spacing>),
 }
 
 /// Write points on a curve or reference of a file, chosen by its name with an option, and say how near to it the polyline through them is.
@@ -43,13 +43,19 @@ pub(super) fn run(
     let title = title(&document, id);
     let parameters = match density {
         Density::Count(count, spacing) => Ok(spacing.parameters(curve, count)),
-        Density::Tolerance(tolerance) => polyline_within(curve, tolerance).ok_or_else(|| {
-            anyhow!(
-                "{}: {} would take more than 100 000 points within {tolerance:e}: allow more",
-                source.name(),
-                quoted(title)
-            )
-        }),
+        Density::Tolerance(tolerance, spacing) => {
+            let found = match spacing {
+                Some(spacing) => spacing.within(curve, tolerance),
+                None => polyline_within(curve, tolerance),
+            };
+            found.ok_or_else(|| {
+                anyhow!(
+                    "{}: {} would take more than 100 000 points within {tolerance:e}: allow more",
+                    source.name(),
+                    quoted(title)
+                )
+            })
+        }
     }?;
     let points: Vec<DVec3> = parameters.iter().map(|u| curve.jet(*u).point).collect();
     let list = PointList::new(points)?;

@@ -20,7 +20,7 @@ const LEG_TOLERANCE: f64 = 1e-5;
 const SHORTEST: f64 = 1e-12;
 
 /// The most points of a polyline: files with more are no use to a solver, and take minutes to find.
-const MOST_POINTS: usize = 100_000;
+pub(super) const MOST_POINTS: usize = 100_000;
 
 /// The most points whose legs are evened out: among more, a short last leg does not show.
 const MOST_EVENED: usize = 2_000;

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::arc_length::arc_length_between;
 use super::parametric_curve::ParametricCurve;
+use super::polyline::{MOST_POINTS, polyline_deviation};
 use super::root::maximum;
 use super::vector::length;
 
@@ -75,6 +76,35 @@ impl Spacing {
             .into_iter()
             .map(|place| lengths.parameter(place))
             .collect()
+    }
+
+    /// Find the parameters of as few points, spread so, as keep the polyline through them within `tolerance` > 0
+    /// of the curve.
+    ///
+    /// The number is doubled until they do, then bisected: where the deviation does not fall with the number, a
+    /// smaller one may do, too. `None` if it takes more than 100 000 points.
+    pub fn within(self, curve: &dyn ParametricCurve, tolerance: f64) -> Option<Vec<f64>> {
+        let spread = |count: usize| {
+            let parameters = self.parameters(curve, count);
+            (polyline_deviation(curve, &parameters) <= tolerance).then_some(parameters)
+        };
+        let mut low = 1;
+        let mut high = 2;
+        let mut best = loop {
+            match spread(high) {
+                Some(parameters) => break parameters,
+                None if high >= MOST_POINTS => return None,
+                None => (low, high) = (high, (2 * high).min(MOST_POINTS)),
+            }
+        };
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            match spread(middle) {
+                Some(parameters) => (best, high) = (parameters, middle),
+                None => low = middle,
+            }
+        }
+        Some(best)
     }
 }
 

@@ -316,6 +316,20 @@ fn a_section_goes_back_to_its_solver() {
     // A tenth of the tolerance takes the root of ten times the points.
     let ratio = counts[2] as f64 / counts[1] as f64;
     assert!((ratio - 10_f64.sqrt()).abs() < 0.3, "{counts:?}");
+    for spacing in ["arc-length", "cosine", "parameter"] {
+        let spread = |density: [&str; 2]| {
+            let arguments = ["points", "fair.batten", "out.dat", "--spacing", spacing];
+            let (_, message) = folder.done(&[&arguments, &density[..]].concat());
+            told(&message)
+        };
+        let (count, within) = spread(["--tolerance", "1e-4"]);
+        let fewer = spread(["--count", &(count - 1).to_string()]);
+        assert!(
+            within <= 1e-4 && fewer.1 > 1e-4,
+            "{spacing}: {within} {fewer:?}"
+        );
+        assert!(count >= counts[1], "{spacing}: {count} {counts:?}");
+    }
 }
 
 #[test]
