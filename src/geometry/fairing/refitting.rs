@@ -104,6 +104,7 @@ pub(super) fn fitted(
             found.extend(new);
             break;
         }
+        let before = (inflections, locked.len());
         // Two inflections of a small bump have no place of their own when it is gone.
         if harmony.inflections.is_none() && new.iter().any(|it| it.displaced.is_some()) {
             inflections = inflections.saturating_sub(2);
@@ -116,6 +117,9 @@ pub(super) fn fitted(
         locked.sort_unstable();
         locked.dedup();
         found.extend(new);
+        if (inflections, locked.len()) == before {
+            break;
+        }
     }
     found
 }
