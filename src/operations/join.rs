@@ -489,7 +489,18 @@ impl Joining<'_> {
         let knuckle = bridge::knuckle(&found).filter(|_| fault.is_none());
         outcome.warnings.extend(knuckle);
         let crossing = new_crossing(&polygons, &found.polygon);
-        outcome.warnings.extend(crossing);
+        let failed = vec![(self.parts[0].0, vec![Requirement::Failed { left: None }])];
+        if let Some(crossing) = crossing {
+            // Where the second moves, the operation chose the place that makes it cross.
+            let warning = match moves {
+                true => format!("{crossing}: let the second curve stay, or join other ends"),
+                false => crossing,
+            };
+            outcome.warnings.push(warning);
+            if moves {
+                outcome.requirements = failed.clone();
+            }
+        }
         let size = BezierPolygon::from_float(&second.polygon).size();
         if changed.deviation > FAR * size {
             let (degree, moved) = (first.polygon.degree(), significant(changed.deviation, 3));
@@ -498,8 +509,7 @@ impl Joining<'_> {
             ));
         }
         if let Some(fault) = &fault {
-            let failed = Requirement::Failed { left: None };
-            outcome.requirements = vec![(self.parts[0].0, vec![failed])];
+            outcome.requirements = failed;
             let [left, right] = self.in_order(&first.polygon, &part);
             let other = match Joint::between(left, right).check(self.size, self.tolerance) {
                 Ok(()) => "Merge or Chain",

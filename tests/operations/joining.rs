@@ -439,6 +439,38 @@ fn a_curve_is_not_joined_with_itself() {
     }
 }
 
+/// A spiral that turns by 290° to its tight end; mirrored where `sense` is −1.
+fn spiral(name: &str, sense: f64) -> Curve {
+    let vertices = (0..14).map(|index| {
+        let angle = 0.4 * f64::from(index);
+        10.0 * (-0.25 * angle).exp() * DVec3::new(angle.cos(), sense * angle.sin(), 0.0)
+    });
+    let polygon = FloatPolygon::new(4, vertices.collect(), None, false);
+    Curve::new(name, polygon.expect("a polygon"))
+}
+
+#[test]
+fn a_second_curve_that_moves_does_not_cross_the_first_unless_told() {
+    let joined = |second: Curve| {
+        let document = Document::from_curves([spiral("first", 1.0), second]);
+        let given = [
+            ("first-end", Value::Choice(2)),
+            ("second-end", Value::Choice(2)),
+            ("move-second", Value::Switch(true)),
+        ];
+        let (outcome, after, report) = join(&document, &given);
+        let crosses = curve_crossing(&only(&after).polygon).is_some();
+        (outcome.reached, crosses, report.text())
+    };
+    // Both bend to one side: in by one spiral, out by the other.
+    let (reached, crosses, told) = joined(spiral("second", -1.0));
+    assert!(crosses && !reached, "{told}");
+    assert!(told.contains("crosses itself now"), "{told}");
+    // The other way round the composite is an S.
+    let (reached, crosses, told) = joined(spiral("second", 1.0));
+    assert!(!crosses && reached, "{told}");
+}
+
 #[test]
 fn a_match_by_which_the_composite_would_follow_itself_is_dropped_on_demand() {
     let [first, second] = [arc("first", 4, 0.0, 60.0), arc("second", 4, 100.0, 160.0)];

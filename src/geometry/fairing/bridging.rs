@@ -13,6 +13,7 @@ use super::problem::Problem;
 use super::walk::walk;
 use crate::geometry::arc_length::arc_length_between;
 use crate::geometry::basis::uniform_basis_derivative;
+use crate::geometry::crossing::curve_crossing;
 use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::Features;
@@ -139,7 +140,7 @@ pub enum BridgeError {
 /// the most even bridge wins: with the smallest sum of the largest second differences of legs, turning
 /// and torsion angles, times 1 + the features that it shows, the number of its legs, and the square of
 /// 1 + its bending energy times its length; where the second part moves, the one with
-/// the fewest features, then the fewest vertices. The logarithms of weights go on as a cubic.
+/// the fewest features, then the shortest move; one that makes a curve of the plane cross itself comes last. The logarithms of weights go on as a cubic.
 ///
 /// A bridge has n segments at least, about as long as those beside it. Where it goes a long way round for that,
 /// turns by half a turn more than the cubic between the ends of a short gap, or bends much more than its ends, the
@@ -254,7 +255,7 @@ struct Trial {
     polygon: FloatPolygon,
     bridge: Range<usize>,
     /// The criterion, then the one that decides between equals.
-    rank: (f64, usize),
+    rank: (f64, f64),
 }
 
 impl Parts {
@@ -286,7 +287,7 @@ impl Parts {
         Some(Trial {
             polygon,
             bridge: begin..begin,
-            rank: (0.0, 0),
+            rank: (0.0, 0.0),
         })
     }
 
@@ -562,7 +563,7 @@ impl Parts {
             vertices = found.vertices;
             let polygon = problem.polygon(&vertices)?;
             trials.push(Trial {
-                rank: (unevenness(&polygon, &bridge)?, count),
+                rank: (unevenness(&polygon, &bridge)?, count as f64),
                 polygon,
                 bridge: bridge.clone(),
             });
@@ -570,7 +571,8 @@ impl Parts {
         Ok(trials)
     }
 
-    /// The best bridge of `count` vertices with the second part where it fits best.
+    /// The best bridge of `count` vertices with the second part where it fits best. A bridge that makes the curve cross
+    /// itself ranks last.
     fn moving(&self, count: usize, order: usize) -> Result<Trial, BridgeError> {
         let weights = self.guess(count).into_iter().map(|(_, weight)| weight);
         let parts = [self.first.vertices(), self.second.vertices()];
@@ -579,11 +581,24 @@ impl Parts {
         let first = self.first.vertices().len();
         let polygon = self.composite(first, &bridge, &second)?;
         let bridge = first..first + count;
+        let pairs = self.second.vertices().iter().zip(&second);
+        let moved = pairs.fold(0.0_f64, |most, (a, b)| most.max(a.distance(*b)));
+        let features = match self.is_crossed_by(&polygon) {
+            true => f64::INFINITY,
+            false => features(&polygon, &bridge)? as f64,
+        };
         Ok(Trial {
-            rank: (features(&polygon, &bridge)? as f64, count),
+            rank: (features, moved),
             polygon,
             bridge,
         })
+    }
+
+    /// Whether a composite of the plane crosses itself, and no part does.
+    fn is_crossed_by(&self, polygon: &FloatPolygon) -> bool {
+        let crosses = |polygon: &FloatPolygon| curve_crossing(polygon).is_some();
+        let parts = [&self.first, &self.second];
+        self.is_planar() && crosses(polygon) && !parts.into_iter().any(crosses)
     }
 }
 
