@@ -7,7 +7,6 @@ use eframe::egui::{self, CentralPanel, Context, Frame, Margin, Panel, Ui, Viewpo
 
 use super::action::Action;
 use super::canvas::Canvas;
-use super::canvas_entry::CanvasEntry;
 use super::context_menu::ContextMenu;
 use super::dialogs::{self, Decision, Dialog};
 use super::document_unit;
@@ -46,7 +45,6 @@ pub struct App {
     editor: Editor,
     shell: Shell,
     canvas: Canvas,
-    entry: CanvasEntry,
     keyboard: Keyboard,
     side: Side,
     plots: Plots,
@@ -119,7 +117,6 @@ impl App {
             editor,
             shell,
             canvas: Canvas::default(),
-            entry: CanvasEntry::default(),
             keyboard: Keyboard::default(),
             side: Side::default(),
             plots,
@@ -220,7 +217,7 @@ impl App {
         if context.input(|input| input.key_pressed(egui::Key::F6)) {
             move_keyboard(context);
         }
-        self.entry.take_keys(context, &self.editor, &self.canvas);
+        self.side.take_keys(context, &self.editor, &self.canvas);
         if keyboard::asks_for_menu(context) {
             self.editor.ask_for_menu(MenuOf::Selection);
         }
@@ -330,10 +327,7 @@ impl App {
     fn overlays_ui(&mut self, context: &Context) {
         if let Some(rect) = self.canvas.rect() {
             layer_strip_ui(context, rect, &mut self.editor, &mut self.actions);
-            let entry = self.entry.show(context, rect, &mut self.editor);
-            // The message stands above the entry field.
-            let above = entry.map_or(rect, |entry| rect.with_max_y(entry.top()));
-            message_ui(context, above, &mut self.editor, &mut self.actions);
+            message_ui(context, rect, &mut self.editor, &mut self.actions);
             if self.editor.sight().is_orbited() {
                 overlays::orbited_ui(context, rect, &mut self.actions);
             }

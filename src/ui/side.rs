@@ -7,6 +7,7 @@ use eframe::egui::{
 };
 
 use super::action::Action;
+use super::canvas::Canvas;
 use super::curve_list::CurveList;
 use super::end_fit_panel::end_fit_panel_ui;
 use super::feature_list::feature_list_ui;
@@ -14,7 +15,7 @@ use super::help::{self, Topic};
 use super::inspector::Inspector;
 use super::operation_panel::OperationPanel;
 use super::theme::{ROW, STEP, Tokens};
-use super::transform_panel::TransformPanel;
+use super::tool_panel::ToolPanel;
 use super::vertex_table::VertexTable;
 use super::widgets;
 use crate::editor::{Editor, ToolKind};
@@ -61,7 +62,7 @@ pub struct Side {
     inspector: Inspector,
     table: VertexTable,
     operation: OperationPanel,
-    transform: TransformPanel,
+    tool: ToolPanel,
     tab: Tab,
     /// The task of the last frame: a new one comes to the front.
     task: Option<Task>,
@@ -100,6 +101,14 @@ impl Side {
     /// Open the field for another name of the active curve or reference.
     pub fn rename_active(&mut self, context: &Context, editor: &Editor) {
         self.curves.rename_active(context, editor);
+    }
+
+    /// Take what is typed on the canvas for the tool in the hand, whose panel comes to the front then.
+    pub fn take_keys(&mut self, context: &Context, editor: &Editor, canvas: &Canvas) {
+        if self.tool.take_keys(context, editor, canvas) {
+            self.task = task(editor);
+            self.is_task_in_front = true;
+        }
     }
 
     /// Bring a new task to the front. An applied operation keeps the place of its preview.
@@ -177,7 +186,7 @@ impl Side {
                 (Some(Task::Preview(_) | Task::Applied(_)), _) => self.operation.show(ui, editor),
                 (Some(Task::Tool(ToolKind::EndFit)), _) => end_fit_panel_ui(ui, editor),
                 (Some(Task::Tool(_)), _) => {
-                    widgets::scrolling(ui, "tool", |ui| self.transform.show(ui, editor));
+                    widgets::scrolling(ui, "tool", |ui| self.tool.show(ui, editor));
                 }
                 (None, Tab::Inspector) => {
                     widgets::scrolling(ui, "inspector", |ui| self.inspector.show(ui, editor));

@@ -88,7 +88,7 @@ fn wrong_text_stays_with_what_is_wrong_and_its_column() {
     let mut window = drawing();
     press(&mut window, Modifiers::NONE, Key::Enter);
     type_point(&mut window, "3,four");
-    window.get_by_label_contains("column 3");
+    window.get_by_label_contains("Column 3");
     assert_eq!(
         window.get_by_label("typed point").value().as_deref(),
         Some("3,four")
@@ -96,7 +96,7 @@ fn wrong_text_stays_with_what_is_wrong_and_its_column() {
     for _ in 0..4 {
         press(&mut window, Modifiers::NONE, Key::Backspace);
     }
-    assert_eq!(window.query_all_by_label_contains("column 3").count(), 0);
+    assert_eq!(window.query_all_by_label_contains("Column 3").count(), 0);
     type_point(&mut window, "4");
     press(&mut window, Modifiers::NONE, Key::Enter);
     assert_eq!(curve(&window).polygon.vertex(1), DVec3::new(3.0, 4.0, 0.0));

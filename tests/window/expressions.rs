@@ -127,12 +127,11 @@ fn panels_take_them_too() {
     press(&mut window, Modifiers::COMMAND, Key::A);
     click(&mut window, "Rotate");
     let before = x(&window, 7);
-    click(&mut window, "rotation angle");
+    click(&mut window, "typed angle");
     type_over(&mut window, "2mm");
     enter(&mut window);
     window.get_by_label_contains("Column 1: a length is given where an angle is needed");
     type_over(&mut window, "2*pi/4 rad");
-    enter(&mut window);
     click(&mut window, "Apply rotation");
     assert!((x(&window, 7) - before).abs() > 1.0, "turned by 90°");
 }

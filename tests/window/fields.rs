@@ -67,8 +67,8 @@ fn keys_typed_into_any_field_are_no_shortcuts() {
         click(&mut window, "vertex 1");
     }
     for (tool, labels) in [
-        (Key::R, vec!["rotation angle", "pivot x", "pivot y"]),
-        (Key::S, vec!["scale factor"]),
+        (Key::R, vec!["typed angle", "pivot x", "pivot y"]),
+        (Key::S, vec!["typed factor"]),
         (
             Key::E,
             vec!["target x", "target y", "target direction", "tolerance"],

@@ -1,6 +1,6 @@
 //! Entries typed on the canvas for the tool in use, and the leg that a tool draws.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use crate::document::CurveId;
 use crate::editor::hand::drawing_plane::{Leg, LegLocks};
@@ -99,11 +99,6 @@ impl Hand {
     pub fn set_draw_settings(&mut self, settings: DrawSettings) {
         let degree = settings.degree.map(|degree| degree.clamp(1, MAX_DEGREE));
         self.settings.draw = DrawSettings { degree, ..settings };
-    }
-
-    /// The last point of the curve that is being drawn.
-    pub fn last_drawn(&self) -> Option<DVec3> {
-        self.tools.used().drawn().last().copied()
     }
 
     /// The degree of the curve that a tool draws, or adds vertices to.

@@ -131,7 +131,8 @@ static TOOLS: &[ToolRow] = &[
     row(ToolKind::AddVertex, 'a', "Add vertex", "git-branch-plus")
         .help("Add a vertex before the first or after the last")
         .made_by(|| Box::new(NewVertexTool::new(NewVertex::AtEnd)))
-        .starting_group(),
+        .starting_group()
+        .with_panel(),
     row(
         ToolKind::Insert,
         'i',
@@ -139,13 +140,15 @@ static TOOLS: &[ToolRow] = &[
         "git-commit-horizontal",
     )
     .help("Insert a vertex into a leg of the float S-polygon")
-    .made_by(|| Box::new(NewVertexTool::new(NewVertex::IntoLeg))),
+    .made_by(|| Box::new(NewVertexTool::new(NewVertex::IntoLeg)))
+    .with_panel(),
     row(ToolKind::Delete, 'x', "Delete vertex", "eraser")
         .help("Delete the vertices you click")
         .made_by(|| Box::new(DeleteTool::default())),
     row(ToolKind::Draw, 'd', "Draw curve", "waypoints")
         .help("Draw a new curve by the vertices of its float S-polygon")
-        .made_by(|| Box::new(DrawTool::default())),
+        .made_by(|| Box::new(DrawTool::default()))
+        .with_panel(),
     row(ToolKind::Rotate, 'r', "Rotate", "rotate-cw")
         .help("Rotate the selection about a movable pivot")
         .made_by(|| Box::new(TransformTool::rotate()))

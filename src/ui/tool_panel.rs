@@ -1,15 +1,14 @@
-//! The entry field on the canvas, for a point, an angle or a factor of the tool in hand, and the
-//! figures of the leg in progress.
+//! The panel of the tools that take a typed point, angle or factor: what they draw, their pivot, and the field that
+//! digits typed on the canvas go to.
 
-use eframe::egui::{
-    Align2, Context, Event, Frame, Id, Key, Rect, Stroke, TextEdit, Ui, Vec2, vec2,
-};
+use eframe::egui::{Button, Context, Event, Id, Key, Rect, TextEdit, Ui, vec2};
+use glam::DVec2;
 use lucide_icons::Icon;
 
 use super::canvas::{self, Canvas};
-use super::chains::Screen;
 use super::draft::remark_ui;
 use super::keyboard::{self, Typing};
+use super::message::sentence;
 use super::number_field::NumberField;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
@@ -24,90 +23,87 @@ use crate::geometry::parameters::Quantity;
 /// What texts begin with that are numbers or points.
 const BEGINNINGS: [char; 5] = ['-', '−', '.', '@', '('];
 
-/// The widths of the field, of captions and of figures.
-const FIELD: f32 = 208.0;
-const CAPTION: f32 = 48.0;
-const FIGURE: f32 = 76.0;
-const SO_FAR: f32 = 56.0;
+/// The widths of the degree's field and of the figures.
+const DEGREE: f32 = 48.0;
+const FIGURE: f32 = 96.0;
 
-/// The panel gives way to points so near, in points of the screen: the next one is often set beside the last.
-const AROUND: f32 = 80.0;
-
-/// The field that digits typed on the canvas go to.
+/// The panel, with the text that is typed.
 #[derive(Debug, Default)]
-pub struct CanvasEntry {
+pub struct ToolPanel {
     text: String,
     error: Option<EntryError>,
-    /// Whether it had the keyboard in the last frame.
+    /// Whether the field had the keyboard in the last frame.
     is_typed: bool,
     rect: Option<Rect>,
-    /// The size of the panel in the last frame.
-    size: Vec2,
 }
 
 /// The identity of the field.
 fn id() -> Id {
-    Id::unique("canvas entry")
+    Id::unique("typed entry")
 }
 
-impl CanvasEntry {
-    /// Give the keyboard to the field when something is typed on the canvas that the tool takes.
-    /// Called before keys are looked at as commands.
-    pub fn take_keys(&mut self, context: &Context, editor: &Editor, canvas: &Canvas) {
+impl ToolPanel {
+    /// Give the keyboard to the field when something is typed on the canvas that the tool takes. Returns whether it
+    /// did. Called before keys are looked at as commands.
+    pub fn take_keys(&mut self, context: &Context, editor: &Editor, canvas: &Canvas) -> bool {
         let takes_text = editor.hand().entry(editor.view().viewport()).is_some();
         if !takes_text || !canvas.has_keyboard(context) {
-            return;
+            return false;
         }
         let begins = |event: &Event| matches!(event, Event::Text(text) if begins(text));
-        if context.input(|input| input.events.iter().any(begins)) {
+        let takes = context.input(|input| input.events.iter().any(begins));
+        if takes {
             self.text.clear();
             self.error = None;
             let rect = self.rect.unwrap_or(Rect::NOTHING);
             keyboard::claim(context, id(), Typing::Text, rect);
             context.memory_mut(|memory| memory.request_focus(id()));
         }
+        takes
     }
 
-    /// Show the field, with the figures of the leg that is drawn, at the canvas's lower edge, or the upper one where
-    /// it would lie over the last point. Returns where.
-    pub fn show(&mut self, context: &Context, canvas: Rect, editor: &mut Editor) -> Option<Rect> {
+    /// Show the fields of the tool in the hand.
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
         let Some(entry) = editor.hand().entry(editor.view().viewport()) else {
             *self = Self::default();
-            return None;
+            return;
         };
-        let low = canvas.center_bottom() - vec2(0.0, 6.0 * STEP);
-        let high = canvas.center_top() + vec2(0.0, 14.0 * STEP);
-        let below = Align2::CENTER_BOTTOM.anchor_size(low, self.size);
-        let last = editor.hand().last_drawn();
-        let viewport = editor.view().viewport();
-        let last = last.map(|last| Screen::new(viewport, canvas).pos(viewport.flatten(last)));
-        let place = match last.is_some_and(|last| below.expand(AROUND).contains(last)) {
-            true => (Align2::CENTER_TOP, high),
-            false => (Align2::CENTER_BOTTOM, low),
-        };
-        let shown = widgets::overlay(context, "drawing", place, |ui| {
-            let outline = Stroke::new(1.0, Tokens::of(ui).outline);
-            let frame = Frame::popup(ui.style()).stroke(outline);
-            frame.inner_margin(2.0 * STEP).show(ui, |ui| {
-                ui.spacing_mut().item_spacing = vec2(STEP, STEP);
-                if matches!(entry, Entry::Point(_)) {
-                    ui.horizontal(|ui| leg_ui(ui, editor));
-                }
-                ui.horizontal(|ui| {
-                    self.entry_ui(ui, editor, entry);
-                    ui.add_space(2.0 * STEP);
-                    draw_way_ui(ui, editor);
-                });
-            });
-        });
-        self.size = shown.response.rect.size();
-        Some(shown.response.rect)
+        ui.strong(editor.hand().tool().label());
+        draw_way_ui(ui, editor);
+        match entry {
+            Entry::Point(_) => {
+                degree_ui(ui, editor);
+                widgets::form_row(ui, "Point", |ui| self.entry_ui(ui, editor, entry, 0.0));
+                leg_ui(ui, editor);
+            }
+            Entry::Angle | Entry::Factor => {
+                pivot_ui(ui, editor);
+                let [caption, apply] = match entry {
+                    Entry::Angle => ["Angle", "Apply rotation"],
+                    _ => ["Factor", "Apply scaling"],
+                };
+                widgets::form_row(ui, caption, |ui| self.applied_ui(ui, editor, entry, apply));
+            }
+        }
     }
 
-    fn entry_ui(&mut self, ui: &mut Ui, editor: &mut Editor, entry: Entry) {
-        let (caption, name, hint) = words(entry);
-        caption_ui(ui, caption);
-        let (_, rect) = ui.allocate_space(vec2(FIELD, ROW));
+    /// The field with a button beside it.
+    fn applied_ui(&mut self, ui: &mut Ui, editor: &mut Editor, entry: Entry, name: &str) {
+        let is_ready = editor.hand().pivot(&editor.context()).is_some();
+        let can_apply = is_ready && !self.text.trim().is_empty();
+        let width = 14.0 * STEP;
+        self.entry_ui(ui, editor, entry, width + ui.spacing().item_spacing.x);
+        let button = Button::new("Apply").min_size(vec2(width, ROW));
+        let response = ui.add_enabled(can_apply, button).accessible_name(name);
+        if response.clicked() {
+            self.enter(ui, editor);
+        }
+    }
+
+    /// The field, as wide as there is room beside other widgets of a width.
+    fn entry_ui(&mut self, ui: &mut Ui, editor: &mut Editor, entry: Entry, beside: f32) {
+        let (name, hint) = words(entry);
+        let (_, rect) = ui.allocate_space(vec2(ui.available_width() - beside, ROW));
         self.rect = Some(rect);
         keyboard::claim(ui.ctx(), id(), Typing::Text, rect);
         let tokens = Tokens::of(ui);
@@ -129,7 +125,7 @@ impl CanvasEntry {
             self.error = None;
         }
         if let Some(error) = &self.error {
-            remark_ui(ui, id(), rect, &error.to_string());
+            remark_ui(ui, id(), rect, &sentence(&error.to_string()));
         }
         self.follow_keyboard(ui, editor, response.has_focus());
     }
@@ -142,7 +138,7 @@ impl CanvasEntry {
         }
         let text = if has_keyboard { self.text.as_str() } else { "" };
         if editor.type_entry(text) {
-            // The text moves the leg in progress, which this frame has shown already.
+            // The text moves the leg in progress, which this frame may have shown already.
             ui.ctx().request_repaint();
         }
         let called_off = || ui.input(|input| input.key_pressed(Key::Escape));
@@ -183,26 +179,17 @@ fn begins(text: &str) -> bool {
     first.is_some_and(|first| first.is_ascii_digit() || BEGINNINGS.contains(&first))
 }
 
-/// The caption of the field, its name and its hint.
-fn words(entry: Entry) -> (&'static str, &'static str, String) {
+/// The name of the field and its hint.
+fn words(entry: Entry) -> (&'static str, String) {
     match entry {
-        Entry::Point([x, y]) => {
-            let hint = format!("{x},{y}  @d{x},d{y}  @length<angle");
-            ("Point", "typed point", hint)
-        }
-        Entry::Angle => ("Angle", "typed angle", "degrees".to_owned()),
-        Entry::Factor => ("Factor", "typed factor", "such as 1.5".to_owned()),
+        Entry::Point([x, y]) => ("typed point", format!("{x},{y}  @d{x},d{y}  @l<a")),
+        Entry::Angle => ("typed angle", "degrees".to_owned()),
+        Entry::Factor => ("typed factor", "such as 1.5".to_owned()),
     }
 }
 
-fn caption_ui(ui: &mut Ui, caption: &str) {
-    let (_, rect) = ui.allocate_space(vec2(CAPTION, ROW));
-    widgets::label_in(ui, rect, caption, Tokens::of(ui).faint_text);
-}
-
-/// Degree, length and angle of the drawing.
+/// Length and angle of the leg that is drawn.
 fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
-    degree_ui(ui, editor);
     let Some(locks) = editor.hand().leg_locks() else {
         return;
     };
@@ -214,7 +201,6 @@ fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     let shown = |value| figures::to_resolution(value, 0.1 * pixel) + &unit;
     let words = ("Length", "leg length", Quantity::Length);
     let length = figure_ui(ui, words, (locks.length, length), shown);
-    ui.add_space(2.0 * STEP);
     let degrees = leg.and_then(|leg| leg.degrees);
     let shown = |value| format!("{}°", figures::to_resolution(value, 0.01));
     let words = ("Angle", "leg angle", Quantity::Angle);
@@ -229,27 +215,28 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor) {
     let Some(degree) = editor.hand().drawn_degree(&editor.context()) else {
         return;
     };
-    caption_ui(ui, "Degree");
-    let field = NumberField::new("drawn degree", degree as f64, degree.to_string())
-        .width(40.0)
-        .range(1.0..=MAX_DEGREE as f64);
-    if let Some(value) = field.typed(ui) {
-        let degree = value.round() as usize;
-        if editor.hand().tool() == ToolKind::Draw {
-            let settings = DrawSettings {
-                degree: Some(degree),
-                ..editor.hand().draw_settings()
-            };
-            editor.hand_mut().set_draw_settings(settings);
-        } else {
-            item_fields::set_degree(editor, degree as f64);
+    widgets::form_row(ui, "Degree", |ui| {
+        let field = NumberField::new("drawn degree", degree as f64, degree.to_string())
+            .width(DEGREE)
+            .range(1.0..=MAX_DEGREE as f64);
+        if let Some(value) = field.typed(ui) {
+            set_degree(editor, value.round() as usize);
         }
-    }
-    // What it has so far stands in a place of its own, so that nothing moves.
-    let (_, rect) = ui.allocate_space(vec2(SO_FAR, ROW));
-    if let Some(degree) = editor.hand().degree_so_far(&editor.context()) {
-        let text = format!("{degree} so far");
-        widgets::label_in(ui, rect, &text, Tokens::of(ui).faint_text);
+        if let Some(degree) = editor.hand().degree_so_far(&editor.context()) {
+            widgets::note(ui, &format!("{degree} so far"));
+        }
+    });
+}
+
+fn set_degree(editor: &mut Editor, degree: usize) {
+    if editor.hand().tool() == ToolKind::Draw {
+        let settings = DrawSettings {
+            degree: Some(degree),
+            ..editor.hand().draw_settings()
+        };
+        editor.hand_mut().set_draw_settings(settings);
+    } else {
+        item_fields::set_degree(editor, degree as f64);
     }
 }
 
@@ -260,24 +247,26 @@ fn figure_ui(
     (locked, drawn): (Option<f64>, Option<f64>),
     shown: impl Fn(f64) -> String,
 ) -> Option<f64> {
-    caption_ui(ui, caption);
     let value = locked.or(drawn);
     let text = value.map_or_else(|| "–".to_owned(), shown);
-    let field = NumberField::new(name, value.unwrap_or(0.0), text)
-        .width(FIGURE)
-        .quantity(quantity);
-    let typed = field.typed(ui);
-    let tokens = Tokens::of(ui);
-    let (icon, verb, colour) = match locked {
-        Some(_) => (Icon::Lock, "Unlock", tokens.accent),
-        None => (Icon::LockOpen, "Lock", tokens.text),
-    };
-    let label = format!("{verb} {name}");
-    let lock = IconButton::new(icon, &label).colour(colour);
-    if lock.enabled(value.is_some()).show(ui).clicked() {
-        return if locked.is_some() { None } else { drawn };
-    }
-    typed.or(locked)
+    let row = widgets::form_row(ui, caption, |ui| {
+        let field = NumberField::new(name, value.unwrap_or(0.0), text)
+            .width(FIGURE)
+            .quantity(quantity);
+        let typed = field.typed(ui);
+        let tokens = Tokens::of(ui);
+        let (icon, verb, colour) = match locked {
+            Some(_) => (Icon::Lock, "Unlock", tokens.accent),
+            None => (Icon::LockOpen, "Lock", tokens.text),
+        };
+        let label = format!("{verb} {name}");
+        let lock = IconButton::new(icon, &label).colour(colour);
+        if lock.enabled(value.is_some()).show(ui).clicked() {
+            return if locked.is_some() { None } else { drawn };
+        }
+        typed.or(locked)
+    });
+    row.inner
 }
 
 /// What the draw tool makes of clicks.
@@ -286,11 +275,35 @@ fn draw_way_ui(ui: &mut Ui, editor: &mut Editor) {
         return;
     }
     let mut settings = editor.hand().draw_settings();
-    for way in DrawWay::ALL {
-        let response = ui.selectable_value(&mut settings.way, way, way.label());
-        response.on_hover_text(way.tooltip());
-    }
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = STEP;
+        for way in DrawWay::ALL {
+            let response = ui.selectable_value(&mut settings.way, way, way.label());
+            response.on_hover_text(way.tooltip());
+        }
+    });
     if settings != editor.hand().draw_settings() {
         editor.hand_mut().set_draw_settings(settings);
     }
+}
+
+fn pivot_ui(ui: &mut Ui, editor: &mut Editor) {
+    let Some(pivot) = editor.hand().pivot(&editor.context()) else {
+        let text = "Select vertices, or a curve that is neither locked nor hidden.";
+        widgets::note(ui, text);
+        return;
+    };
+    widgets::form_row(ui, "Pivot", |ui| {
+        let pixel = editor.view().viewport().pixel();
+        let axes = [("pivot x", DVec2::X), ("pivot y", DVec2::Y)];
+        for (name, axis) in axes {
+            let value = pivot.dot(axis);
+            let shown = figures::significant(value, 6);
+            let field = NumberField::new(name, value, shown).speed(pixel);
+            if let Some(changed) = field.quantity(Quantity::Length).changed(ui) {
+                let pivot = pivot + axis * (changed - value);
+                editor.hand_mut().set_pivot(Some(pivot));
+            }
+        }
+    });
 }
