@@ -2,7 +2,7 @@
 
 use eframe::egui::{
     Align2, Area, Context, Frame, Id, Key, Modifiers, Order, Response, Role, ScrollArea, Sense,
-    TextEdit, Ui, Vec2, WidgetInfo,
+    TextEdit, Ui, Vec2, WidgetInfo, vec2,
 };
 use nucleo_matcher::pattern::{AtomKind, CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
@@ -14,6 +14,9 @@ use super::{icons, widgets};
 use crate::editor::Editor;
 
 const WIDTH: f32 = 440.0;
+
+/// The height of the help for the chosen command: two lines.
+const HELP: f32 = 9.0 * STEP;
 
 /// The palette, when it is open.
 #[derive(Default)]
@@ -78,12 +81,14 @@ impl Palette {
         if field.changed() {
             self.chosen = 0;
         }
-        let found = matches(&self.typed);
+        let found = matches(&self.typed, |action| action.is_enabled(editor));
         self.open &= !is_left;
         let moved = self.chosen as i64 + steps;
         self.chosen = moved.clamp(0, found.len().max(1) as i64 - 1) as usize;
         let by_key = found.get(self.chosen).copied().filter(|_| is_entered);
         let by_hand = self.list_ui(ui, editor, &found, steps != 0);
+        let chosen = found.get(self.chosen);
+        help_ui(ui, chosen.map(|action| action.tooltip_now(editor)));
         by_key
             .or(by_hand)
             .filter(|action| action.is_enabled(editor))
@@ -145,9 +150,21 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> Respons
     response.on_hover_text(action.tooltip_now(editor))
 }
 
+/// What the chosen command does, or why it is not available, in as much room as the longest text takes.
+fn help_ui(ui: &mut Ui, text: Option<String>) {
+    let size = vec2(ui.available_width(), HELP);
+    ui.allocate_ui(size, |ui| {
+        ui.set_min_size(size);
+        let text = text.unwrap_or_default();
+        // The reason alone: it is what the user does next.
+        let reason = text.split_once("\n\n").map_or(&*text, |(_, reason)| reason);
+        widgets::note(ui, reason);
+    });
+}
+
 /// The commands whose names hold the typed words, best first, or else those whose tooltips do, or whose names resemble
-/// them; all of them without a text.
-fn matches(typed: &str) -> Vec<Action> {
+/// them; those that are available before others. All of them without a text.
+fn matches(typed: &str, is_available: impl Fn(Action) -> bool) -> Vec<Action> {
     let all = Action::all();
     if typed.trim().is_empty() {
         return all;
@@ -159,7 +176,9 @@ fn matches(typed: &str) -> Vec<Action> {
     ];
     let found = ways.map(|(text, kind)| scored(&all, typed, text, kind));
     let mut found = found.into_iter().filter(|found| !found.is_empty());
-    found.next().unwrap_or_default()
+    let mut found = found.next().unwrap_or_default();
+    found.sort_by_key(|action| !is_available(*action));
+    found
 }
 
 /// A text that is searched for what is typed.

@@ -380,6 +380,15 @@ fn the_palette_finds_commands() {
     window.run();
     let found = window.query_all_by_label_contains("Elevate degree").count();
     assert!(found > 0);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+
+    // What cannot be done says why, after what can, and Enter leaves the list open.
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    window.event(Event::Text("join".to_owned()));
+    window.run();
+    window.get_by_label_contains("Unavailable:");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    window.get_by_label("Find a command");
 }
 
 #[test]
