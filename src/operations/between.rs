@@ -22,7 +22,7 @@ use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Verdict;
 use crate::geometry::parameters::{Number, Quantity};
 use crate::geometry::references::ReferenceForm;
-use crate::geometry::{End, FloatPolygon, MAX_DEGREE, Progress, significant};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, MAX_DEGREE, Progress, significant};
 
 /// The length of the arrows for directions that curves give, in chords.
 const ARROW: f64 = 0.25;
@@ -90,14 +90,14 @@ const FROM: Parameter = Parameter {
     name: "from",
     label: "From",
     help: "Where the segment starts",
-    kind: Kind::list(2..=2, |_| "the end of the chosen curve, or 0, 0"),
+    kind: Kind::list(2..=2, |_| "the curve's end, or 0, 0"),
 };
 
 const FROM_DIRECTION: Parameter = Parameter {
     name: "from-direction",
     label: "From direction",
     help: "The direction in which it starts",
-    kind: Kind::list(2..=2, |_| "that of the curve, or 2, 2"),
+    kind: Kind::list(2..=2, |_| "the curve's, or 2, 2"),
 };
 
 const FROM_CURVATURE: Parameter = Parameter {
@@ -111,14 +111,14 @@ const TO: Parameter = Parameter {
     name: "to",
     label: "To",
     help: "Where the segment ends",
-    kind: Kind::list(2..=2, |_| "the end of the other chosen curve, or 10, 0"),
+    kind: Kind::list(2..=2, |_| "the other's end, or ahead"),
 };
 
 const TO_DIRECTION: Parameter = Parameter {
     name: "to-direction",
     label: "To direction",
     help: "The direction in which it ends",
-    kind: Kind::list(2..=2, |_| "that of the curve, or 3, -1.5"),
+    kind: Kind::list(2..=2, |_| "the other's, or ahead"),
 };
 
 const TO_CURVATURE: Parameter = Parameter {
@@ -380,14 +380,14 @@ fn ends(input: &Operands, values: &Values) -> Ends {
 }
 
 /// The ends that the chosen curves offer, open ones in the plane: of two those that are nearest to each
-/// other, of one its own, so that the segment closes it.
+/// other; from the end of one the segment goes on.
 fn offered(input: &Operands) -> Ends {
     let polygons = input.curves().iter().map(|(_, curve)| &curve.polygon);
     let polygons = polygons.filter(|polygon| !polygon.is_periodic() && polygon.is_planar());
     let polygons: Vec<&FloatPolygon> = polygons.collect();
     match polygons[..] {
         [] => ENDS,
-        [own] => joining(own, End::Finish, own, End::Start),
+        [curve] => going_on(curve),
         [first, second, ..] => {
             let pairs = End::BOTH
                 .into_iter()
@@ -397,6 +397,31 @@ fn offered(input: &Operands) -> Ends {
             let nearest = pairs.min_by(|a, b| distance(a).total_cmp(&distance(b)));
             nearest.unwrap_or(ENDS)
         }
+    }
+}
+
+/// The ends of a segment that goes on from the end of a curve, to the side that the curve bends to, half as far as the
+/// curve is large: [`ENDS`], moved there.
+fn going_on(curve: &FloatPolygon) -> Ends {
+    let jet = curve.end_jet(End::Finish);
+    let bends_left = jet.signed_curvature() > 0.0;
+    let tangent = jet.tangent().unwrap_or(DVec3::X).truncate();
+    let seen = |it: DVec2| {
+        if bends_left {
+            DVec2::new(it.x, -it.y)
+        } else {
+            it
+        }
+    };
+    let turn = seen(ENDS.directions[0]).normalize().angle_to(tangent);
+    let scale = 0.5 * BezierPolygon::from_float(curve).size() / ENDS.points[1].length();
+    let moved = |it: DVec2| scale * DVec2::from_angle(turn).rotate(seen(it));
+    let start = jet.point.truncate();
+    let curvature = Some(jet.signed_curvature()).filter(|it| it.is_finite());
+    Ends {
+        points: ENDS.points.map(|point| start + moved(point)),
+        directions: ENDS.directions.map(moved),
+        curvatures: [curvature, None],
     }
 }
 

@@ -14,7 +14,7 @@ const MUCH: f64 = 10.0;
 
 /// A curve that moves by more than this share of its size, and more than twice as far as its ends, has changed as a
 /// whole, too: curvatures and directions say little about how far a curve may move.
-const FAR: f64 = 0.02;
+const FAR: f64 = 0.01;
 
 /// A curve that moves by more than this share of its size, and more than [`MUCH`] times as far as its ends, is another
 /// curve.

@@ -1,8 +1,8 @@
 //! A segment between two ends: preview, handles for points and directions, ends of chosen curves.
 
-use batten::editor::{Command, Key, Mark};
-use batten::geometry::End;
+use batten::editor::{Command, Input, Key, Mark};
 use batten::geometry::features::{Features, Verdict};
+use batten::geometry::{BezierPolygon, End, curve_crossing};
 use batten::operations::{Handle, Value};
 use glam::{DVec2, DVec3};
 
@@ -113,15 +113,23 @@ fn where_there_is_none_the_handles_stay_and_lead_back() {
 }
 
 #[test]
-fn an_open_curve_is_closed_and_escape_restores_it() {
+fn a_segment_goes_on_from_the_end_of_a_curve_and_escape_restores_it() {
     let mut script = Script::example("arc");
     let before = script.editor.document().clone();
     let polygon = script.polygon().clone();
     script.try_out(NAME).expect("it can run");
-    script.set("kind", Value::Choice(2)).expect("a kind");
     let shown = handles(&script);
-    assert_eq!(shown[0].at, polygon.end_jet(End::Finish).point);
-    assert_eq!(shown[2].at, polygon.end_jet(End::Start).point);
+    let end = polygon.end_jet(End::Finish);
+    assert_eq!(shown[0].at, end.point);
+    let reach = shown[2].at.distance(end.point) / BezierPolygon::from_float(&polygon).size();
+    assert!((reach - 0.5).abs() < 1e-9, "half the curve's size: {reach}");
+    let made = script.polygon();
+    let start = made.end_jet(End::Start);
+    let turned = start.first.angle_between(end.first);
+    assert!(turned < 1e-6, "{turned}");
+    let sides = [start, end].map(|jet| jet.signed_curvature().signum());
+    assert_eq!(sides[0], sides[1], "it bends to the same side");
+    assert_eq!(curve_crossing(&made), None);
     script.key(batten::editor::Key::Escape);
     assert!(script.editor.document().is_same(&before));
     assert_eq!(script.steps(), 0);
@@ -183,4 +191,30 @@ fn numbers_of_kinds_that_are_not_chosen_are_not_offered() {
         assert_eq!(own, expected);
         assert!(shown.contains(&"degree"));
     }
+}
+
+#[test]
+fn escape_restores_the_view_and_the_comb_unless_the_user_has_turned_it() {
+    let seen = |script: &Script| {
+        let view = script.editor.view();
+        (*view.viewport(), view.comb())
+    };
+    let mut script = Script::example("s-curve");
+    script.input(Input::Zoomed {
+        at: DVec2::new(100.0, 100.0),
+        factor: 6.0,
+    });
+    let before = seen(&script);
+    script.try_out(NAME).expect("it can run");
+    assert_ne!(seen(&script), before, "the segment is brought into sight");
+    script.key(Key::Escape);
+    assert_eq!(seen(&script), before);
+    script.try_out(NAME).expect("it can run");
+    script.input(Input::Zoomed {
+        at: DVec2::new(100.0, 100.0),
+        factor: 0.9,
+    });
+    let turned = seen(&script);
+    script.key(Key::Escape);
+    assert_eq!(seen(&script), turned);
 }

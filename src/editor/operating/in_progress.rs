@@ -8,7 +8,7 @@ use super::end_fit_step::EndFitStep;
 use super::fitted_points::FittedPoints;
 use crate::document::{Curve, CurveId, Document, Edit, quoted};
 use crate::editor::selection::Selection;
-use crate::editor::view::{Mark, Viewport};
+use crate::editor::view::{Framing, Mark, Viewport};
 use crate::editor::workspace::PreviewId;
 use crate::geometry::Progress;
 use crate::operations::{
@@ -28,6 +28,8 @@ pub struct OperationInProgress {
     pub(super) stage: Stage,
     /// The selection before the operation.
     pub(super) selection: Selection,
+    /// The framing before the operation, and the one that it chose for a curve that it made.
+    pub(super) framings: (Framing, Option<Framing>),
     /// The last run: of earlier values while the present ones are pending.
     pub(super) run: Option<Result<Run, OperationError>>,
     /// Whether the run with the present values is not finished.

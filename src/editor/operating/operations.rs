@@ -134,8 +134,20 @@ impl Operating<'_> {
         reply
     }
 
-    /// Cancel the preview with the selection before it, or forget the operation that was applied last.
+    /// Cancel the preview with the selection and the view before it, or forget the operation that was applied last. The
+    /// view stays where the user has turned it.
     pub fn leave(&mut self) {
+        let framings = self.previewed().map(|it| it.framings);
+        self.end();
+        if let Some((before, Some(own))) = framings
+            && own.sees_as(&self.view.framing())
+        {
+            self.view.restore(before);
+        }
+    }
+
+    /// End the preview with the selection before it, or forget the operation that was applied last.
+    fn end(&mut self) {
         let previews = self.previewed().is_some();
         if previews {
             self.workspace.abort();
@@ -162,7 +174,7 @@ impl Operating<'_> {
         if numbers(self.workspace.settled()) == numbers(self.workspace.document()) {
             self.leave_selecting(self.hand.selection.clone());
         } else {
-            self.leave();
+            self.end();
         }
     }
 
@@ -177,7 +189,7 @@ impl Operating<'_> {
     }
 
     fn leave_selecting(&mut self, selection: Selection) {
-        self.leave();
+        self.end();
         self.hand.selection = selection;
         self.document_changed();
     }
@@ -344,6 +356,7 @@ impl Operating<'_> {
             values,
             stage: Stage::Previewed(preview),
             selection: self.hand.selection.clone(),
+            framings: (self.view.framing(), None),
             run: None,
             pending: false,
             stops: false,
@@ -632,7 +645,14 @@ impl Operating<'_> {
         };
         let layers = self.hand.layers(self.view.layers);
         let shown = self.hand.shown(self.workspace, layers);
+        let framing = self.view.framing();
         self.view.look(look, shown);
+        if let Some(current) = &mut self.operations.operation {
+            let own = &mut current.framings.1;
+            if own.is_none_or(|own| own.sees_as(&framing)) {
+                *own = Some(self.view.framing());
+            }
+        }
     }
 
     /// Deselect vertices that the document no longer has.

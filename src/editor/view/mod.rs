@@ -59,6 +59,7 @@ pub use scene::{
     Mark, MeasuredFigure, Scene, VertexMark,
 };
 pub use sight::Sight;
+pub(in crate::editor) use view::Framing;
 pub use view::View;
 pub use viewport::Viewport;
 pub use whiskers::Whiskers;

@@ -95,7 +95,41 @@ pub(in crate::editor) struct Hovered {
     pub(in crate::editor) vertex: Option<usize>,
 }
 
+/// What the canvas shows at which size, and the comb that suits it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::editor) struct Framing {
+    viewport: Viewport,
+    target: DVec3,
+    comb: CombSettings,
+    combed: Option<CurveId>,
+}
+
+impl Framing {
+    /// Whether both show the same part of the model, whatever the comb.
+    pub(in crate::editor) fn sees_as(&self, other: &Self) -> bool {
+        (self.viewport, self.target) == (other.viewport, other.target)
+    }
+}
+
 impl View {
+    /// The present framing.
+    pub(in crate::editor) fn framing(&self) -> Framing {
+        Framing {
+            viewport: self.viewport,
+            target: self.target,
+            comb: self.comb,
+            combed: self.combed,
+        }
+    }
+
+    /// Go back to an earlier framing.
+    pub(in crate::editor) fn restore(&mut self, framing: Framing) {
+        self.viewport = framing.viewport;
+        self.target = framing.target;
+        self.comb = framing.comb;
+        self.combed = framing.combed;
+    }
+
     /// The curve or reference that a curve or reference is compared with; it may be no longer in the document.
     pub fn compared(&self, id: CurveId) -> Option<CurveId> {
         self.comparisons.get(&id).copied()
