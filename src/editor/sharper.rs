@@ -11,8 +11,22 @@ pub(super) fn sharper_radius(before: &FloatPolygon, after: &FloatPolygon) -> Opt
     let largest =
         |polygon: &FloatPolygon| largest_curvature(polygon, [0.0, polygon.segments() as f64]);
     let [was, now] = [before, after].map(largest);
-    let least = before.size().recip();
-    (now > SHARPER * was.max(least)).then(|| significant(now.recip(), 3))
+    // A curve that is scaled as a whole bends as before.
+    let [size, least] = [before.size(), before.size().min(after.size())];
+    (least * now > SHARPER * (size * was).max(1.0)).then(|| significant(now.recip(), 3))
+}
+
+/// Say which curve a drag bends much more sharply than it was.
+pub(super) fn sharp_drag([before, after]: [&Document; 2]) -> Option<String> {
+    after.curves().find_map(|(id, curve)| {
+        let before = &before.curve(id)?.polygon;
+        let is_changed = *before != curve.polygon;
+        let radius = is_changed.then(|| sharper_radius(before, &curve.polygon))??;
+        let name = quoted(&curve.name);
+        Some(format!(
+            "{name} is bent to the radius {radius} now, much sharper than before"
+        ))
+    })
 }
 
 /// The curves that edits match with others.

@@ -265,3 +265,29 @@ fn a_drag_seen_at_an_angle_snaps_to_the_grid_on_the_ground() {
     let remarks = readout(&mut script).expect("a readout").remarks;
     assert!(!remarks.contains(&"Grid".to_owned()), "{remarks:?}");
 }
+
+#[test]
+fn a_drag_that_bends_a_curve_sharply_warns_and_one_that_scales_it_does_not() {
+    let warning = |script: &Script| {
+        let message = script.editor.message().filter(|it| it.warns);
+        message.map(|it| (it.text.clone(), it.offers_undo))
+    };
+    let mut script = Script::example("s-curve");
+    script.drag_vertex(3, DVec2::new(6.0, 4.0));
+    assert_eq!(warning(&script), None, "a small drag");
+    script.command(Command::Undo);
+    // Past its neighbour: the polygon folds.
+    let by = script.at_vertex(5) - script.at_vertex(3);
+    script.drag_vertex(3, 1.02 * by);
+    let (text, offers_undo) = warning(&script).expect("a warning");
+    assert!(
+        text.contains("is bent to the radius") && offers_undo,
+        "{text}"
+    );
+    script.command(Command::Undo);
+    assert_eq!(warning(&script), None);
+    script.command(Command::SelectAll);
+    script.command(Command::Tool(ToolKind::Scale));
+    script.editor.enter("0.05").expect("a factor");
+    assert_eq!(warning(&script), None, "a smaller curve bends as before");
+}

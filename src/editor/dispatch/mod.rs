@@ -12,6 +12,7 @@ use crate::editor::hand::menu::MenuTarget;
 use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind, Tools};
 use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Message, Note, Refusal, told};
+use crate::editor::sharper::sharp_drag;
 use crate::editor::view::Look;
 use crate::editor::workspace::Interruption;
 
@@ -264,8 +265,14 @@ impl Editor {
                     self.hand.find_added(&self.workspace, &self.view.analyses);
                 }
                 Effect::Commit => {
+                    let before = self.workspace.settled().clone();
                     let analyses = &self.view.analyses;
                     self.hand.commit_kept(&mut self.workspace, analyses);
+                    if let Some(warning) = sharp_drag([&before, self.workspace.document()]) {
+                        let warns = true;
+                        let note = Note::done(warning);
+                        self.message = Message::of(&Ok(Note { warns, ..note }));
+                    }
                 }
                 Effect::Abort => {
                     self.hand.keeping.end();
