@@ -234,7 +234,9 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let ids = input.document().next_ids();
     let mut outcome = outcome(input, values, &asked, &fitted, &corners);
     if fitted.iter().any(|found| found.stopped) {
-        outcome.remarks.push(best_so_far(&progress, values));
+        let fewest = asked.extrema == Extrema::Fewest;
+        let more = if fewest { "; fewer extrema may do" } else { "" };
+        outcome.remarks.push(best_so_far(&progress, values) + more);
     }
     let is_held = |own: &PlaneFit| own.exact_ends != asked.exact_ends;
     if let ([own], [piece]) = (&requests[..], &pieces[..]) {
@@ -605,6 +607,7 @@ fn remarks(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
                 format!("with {} it is kept", counted(least, "extremum", "extrema"))
             }
             (None, Extrema::Exactly(_)) => "allow more, or another number of extrema".to_owned(),
+            (None, Extrema::Fewest) if found.stopped => "allow more time, or more".to_owned(),
             (None, Extrema::Fewest) => "allow more".to_owned(),
         };
         remarks.push(format!(

@@ -6,6 +6,7 @@ use super::descent::descend;
 use super::estimate::estimated_extrema;
 use super::first_places::{closed_shares, open_shares};
 use super::problem::{Data, PlacedCurve, Problem, Start};
+use super::sharp_bend::has_cusp;
 use super::sign_runs::SignRuns;
 use super::slope_coefficients::SlopeTables;
 use super::splines::Splines;
@@ -543,6 +544,9 @@ impl<'a> Task<'a> {
         }
         let features = Features::proved(&polygon, |_| !self.progress.is_cancelled());
         features.is_some_and(|features| {
+            if has_cusp(&polygon, &features, &points, known) {
+                return false;
+            }
             let inflections = features.count(Feature::Inflection);
             let extrema = features.curvature_extrema.iter();
             let mut places: Vec<f64> = extrema.map(|it| 0.5 * (it.u[0] + it.u[1])).collect();

@@ -18,6 +18,9 @@ const SHARPER: f64 = 4.0;
 /// The curvature times the size of the curve that a bend must have to be seen: that of half a circle as large.
 const SEEN: f64 = 2.0;
 
+/// A bend that is so many times as sharp is a cusp: real sections reach 20 times where a nose lies between two points.
+const CUSP: f64 = 50.0;
+
 /// A bend that is much sharper than the circles through three points beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SharpBend {
@@ -58,6 +61,18 @@ pub(super) fn sharp_bend(
     bends
         .filter(is_sharp)
         .max_by(|a, b| ratio(a).total_cmp(&ratio(b)))
+}
+
+/// Whether a curve has a bend that no eye tells from a cusp, where its points show none; arguments as for
+/// [`sharp_bend`].
+pub(super) fn has_cusp(
+    polygon: &FloatPolygon,
+    features: &Features,
+    points: &[(DVec2, f64)],
+    known: [bool; 2],
+) -> bool {
+    let bend = sharp_bend(polygon, features, points, known);
+    bend.is_some_and(|bend| bend.curvature > CUSP * bend.shown.max(1.0 / polygon.size()))
 }
 
 /// The largest curvature of the circles through three points that follow each other, beside a parameter.
