@@ -69,7 +69,8 @@ pub(super) fn remarks(found: &Bridged) -> Vec<String> {
         true => "the parts go on from each other",
         false => "the bridge fits into the gap",
     };
-    let halved = halved.map(|halved| format!("{halved}, so that {purpose}"));
+    let count = found.polygon.vertices().len();
+    let halved = halved.map(|halved| format!("{halved}, so that {purpose}: {count} vertices"));
     let undecided = (found.undecided > 0).then(|| {
         format!(
             "Features of the bridge that could not be decided: {}",

@@ -328,9 +328,11 @@ impl Joining<'_> {
         let why = match self.merged(self.tolerance) {
             Ok((merged, possible)) if possible <= self.tolerance => return Ok(merged),
             Ok((_, possible)) if !self.is_given && possible <= ALSO_WITHIN * self.size => {
-                return self
-                    .merged(possible * (1.0 + MET))
-                    .map(|(merged, _)| merged);
+                let wider = possible * (1.0 + MET);
+                match self.merged(wider)? {
+                    (merged, found) if found <= wider => return Ok(merged),
+                    (_, found) => nearest_merge(self.tolerance, found.min(possible)),
+                }
             }
             Ok((_, possible)) => nearest_merge(self.tolerance, possible),
             Err(OperationError::LockedInMerge { name }) => {
@@ -487,17 +489,19 @@ impl Joining<'_> {
         let polygons = [&first.polygon, &part];
         let fault = bridge::fault(&found, polygons);
         let knuckle = bridge::knuckle(&found).filter(|_| fault.is_none());
+        // Where the second moves, the operation chose the place that makes it cross; a bridge that crosses in a knuckle
+        // is no use.
+        let is_chosen = moves || knuckle.is_some();
         outcome.warnings.extend(knuckle);
         let crossing = new_crossing(&polygons, &found.polygon);
         let failed = vec![(self.parts[0].0, vec![Requirement::Failed { left: None }])];
         if let Some(crossing) = crossing {
-            // Where the second moves, the operation chose the place that makes it cross.
             let warning = match moves {
                 true => format!("{crossing}: let the second curve stay, or join other ends"),
                 false => crossing,
             };
             outcome.warnings.push(warning);
-            if moves {
+            if is_chosen {
                 outcome.requirements = failed.clone();
             }
         }
