@@ -7,7 +7,7 @@ use crate::geometry::harmony::Match;
 use crate::geometry::{counted, rounded_up, significant};
 
 impl Report {
-    /// Say in one line what the operation did: "Trim curve: off the curve by at most 1.2e-3;
+    /// Say in one line what the operation did: "Trim curve: the curve moves by at most 1.2e-3;
     /// curvature extrema: 2 before, 3 now".
     pub fn summary(&self) -> String {
         match self.details() {
@@ -29,7 +29,7 @@ impl Report {
             match self.deviation {
                 Deviation::Exact => parts.push("exact".to_owned()),
                 Deviation::AtMost(bound) => {
-                    parts.push(format!("off the curve by at most {}", rounded_up(bound)));
+                    parts.push(format!("the curve moves by at most {}", rounded_up(bound)));
                 }
                 Deviation::Measured(length) => {
                     let length = significant(length, 3);
@@ -44,7 +44,9 @@ impl Report {
         if let Some(level) = self.differing_level() {
             parts.push(format!("another shape: {} differs", level.name()));
         }
-        if let Some(residual) = self.residual.filter(|it| *it > self.rounding) {
+        // What is reached is met within its tolerance.
+        let missed = self.residual.filter(|it| *it > self.rounding);
+        if let Some(residual) = missed.filter(|_| !self.reached) {
             parts.push(format!("missed by {}", significant(residual, 4)));
         }
         if let Some(features) = self.features.as_ref().filter(|_| self.useful) {

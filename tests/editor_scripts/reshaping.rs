@@ -110,7 +110,7 @@ fn one_segment_is_raised_exactly_and_several_come_near() {
     let Deviation::AtMost(bound) = script.trial_report().deviation else {
         panic!("{note:?}");
     };
-    let told = format!("off the curve by at most {}", rounded_up(bound));
+    let told = format!("the curve moves by at most {}", rounded_up(bound));
     assert!(note.text.contains(&told), "{}", note.text);
     assert!(note.text.contains("double the knots"), "{}", note.text);
     let off = farthest_off(&before, &script.polygon());

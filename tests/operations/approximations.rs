@@ -407,7 +407,7 @@ fn a_deviation_that_is_only_sampled_says_so() {
             "{text}"
         );
         assert_eq!(
-            text.contains("off the curve by at most"),
+            text.contains("the curve moves by at most"),
             !is_sampled,
             "{text}"
         );
