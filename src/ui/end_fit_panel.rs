@@ -145,7 +145,8 @@ fn steps_ui(ui: &mut Ui, report: &EndFitReport, is_closed: bool) -> Option<EndFi
         "Rotate the terminal vertices about the end point by the difference angle",
     ];
     let rotate = button(rotate, has_direction, EndFitAction::Rotate);
-    let is_turned = has_direction && is_aligned;
+    // In their order: a tick below an open step would say that it is done.
+    let is_turned = has_direction && is_aligned && is_in_place;
     let rotated = step_ui(ui, 6, &format!("Turn {count}"), is_turned, rotate);
     let rest = indented(ui, |ui| repeat_ui(ui, report));
     let actions = [closed, translated, rotated];

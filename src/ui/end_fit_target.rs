@@ -138,7 +138,7 @@ fn now_ui(ui: &mut Ui, actual: &str) -> Response {
 /// Show the end as it is, and its target.
 pub fn target_ui(ui: &mut Ui, report: &EndFitReport, pixel: f64) -> Option<Event> {
     actual_ui(ui, report, pixel);
-    // Without a target the fields show the end as it is, so that nothing moves when there is one.
+    // Without a target the fields show the end as it is: another value sets a target.
     let target = report.target.unwrap_or(EndTarget {
         curvature: None,
         normal: None,
@@ -147,7 +147,7 @@ pub fn target_ui(ui: &mut Ui, report: &EndFitReport, pixel: f64) -> Option<Event
     });
     let mut event = None;
     // The source sets a matched end's target.
-    let is_own = report.target.is_some() && report.matched.is_none();
+    let is_own = report.matched.is_none();
     ui.add_enabled_ui(is_own, |ui| {
         let axes = if report.planar { 2 } else { 3 };
         let place = vector_row(
