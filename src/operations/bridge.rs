@@ -4,6 +4,7 @@ use super::error::OperationError;
 use super::outcome::{Annotation, Figure};
 use super::parameter::{Kind, Parameter};
 use super::value::Value;
+use crate::geometry::fairing::bends::Bends;
 use crate::geometry::fairing::bridging::{BridgeError, Bridged, MAX_BRIDGE, largest_jump};
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{BezierPolygon, FloatPolygon, significant};
@@ -110,21 +111,26 @@ pub(super) fn spike(found: &Bridged) -> Option<String> {
 
 /// Say that a bridge bends more than so many times as sharply as it needs to.
 fn bent(found: &Bridged, most: f64) -> Option<String> {
-    (found.bends.excess() > most)
-        .then(|| format!("A bridge is bent to a radius of {}", radius(found)))
+    (found.bends.excess() > most).then(|| {
+        format!(
+            "A bridge is bent to a radius of {}",
+            significant(1.0 / found.bends.largest, 3)
+        )
+    })
 }
 
 /// Say that a bridge is bent more sharply than its ends and the gap make one expect.
 pub(super) fn knuckle(found: &Bridged) -> Option<String> {
-    found.bends.is_knuckle().then(|| {
-        let radius = radius(found);
-        format!("The bridge is bent to a radius of {radius}, sharper than its ends")
-    })
+    sharper("bridge", &found.bends)
 }
 
-/// The smallest radius of a bridge, as text.
-fn radius(found: &Bridged) -> String {
-    significant(1.0 / found.bends.largest, 3)
+/// Say that what connects two ends is bent more sharply than they and the gap make one expect.
+pub(super) fn sharper(name: &str, bends: &Bends) -> Option<String> {
+    bends.is_knuckle().then(|| {
+        let radius = significant(1.0 / bends.largest, 3);
+        let times = significant(bends.excess(), 2);
+        format!("The {name} is bent to a radius of {radius}, {times} times as sharply as its ends ask for")
+    })
 }
 
 /// Annotate the vertices of a bridge.

@@ -21,8 +21,11 @@ use super::parameter::{Choice, Kind, POSITIVE, Parameter};
 use super::targets::place_of;
 use super::values::Values;
 use crate::document::{Edit, EndMatch, MatchPlace};
-use crate::geometry::approximation::merging::{Joint, MergeError, Merged, Track, merge};
+use crate::geometry::approximation::merging::{
+    Joint, MergeError, Merged, Track, merge, merge_blended,
+};
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::fairing::bends::Bends;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{
@@ -32,24 +35,26 @@ use crate::geometry::{
 const METHOD: Parameter = Parameter {
     name: "method",
     label: "Method",
-    help: "Automatic: merge ends that meet within the tolerance, chain at a corner, bridge a gap",
+    help: "Automatic: merge ends that meet, chain at a corner, bridge or blend a gap",
     kind: Kind::Choice {
         options: &[
             Choice::new("automatic", "Automatic"),
             Choice::new("merge", "Merge"),
             Choice::new("bridge", "Bridge"),
             Choice::new("chain", "Chain"),
+            Choice::new("blend", "Blend"),
         ],
         default: 0,
     },
 };
 
 /// The meanings of the options of [`METHOD`].
-const METHODS: [Option<Method>; 4] = [
+const METHODS: [Option<Method>; 5] = [
     None,
     Some(Method::Merge),
     Some(Method::Bridge),
     Some(Method::Chain),
+    Some(Method::Blend),
 ];
 
 /// A way to join two curves.
@@ -61,6 +66,8 @@ enum Method {
     Bridge,
     /// Two curves, the second one matched.
     Chain,
+    /// One curve, near both, with a blend between them.
+    Blend,
 }
 
 pub(super) const TOLERANCE: Parameter = Parameter {
@@ -199,7 +206,7 @@ pub static OPERATION: Operation = Operation {
 /// Each method has values of its own; a value of a bridge implies one.
 fn unused(values: &Values) -> &'static [&'static str] {
     match method(values) {
-        Some(Method::Merge) => &[BRIDGE.name, MOVE_SECOND.name, CONTINUITY.name],
+        Some(Method::Merge | Method::Blend) => &[BRIDGE.name, MOVE_SECOND.name, CONTINUITY.name],
         Some(Method::Bridge) => &[TOLERANCE.name, CONTINUITY.name],
         Some(Method::Chain) => &[TOLERANCE.name, BRIDGE.name, MOVE_SECOND.name],
         None => &[BRIDGE.name, MOVE_SECOND.name],
@@ -258,6 +265,10 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         Some(Method::Merge) => joining.merged(joining.tolerance).map(|(merged, _)| merged),
         Some(Method::Bridge) => joining.bridge().map(|(outcome, _)| outcome),
         Some(Method::Chain) => joining.chained(),
+        Some(Method::Blend) => {
+            let (blended, _) = joining.blended()?;
+            Ok(blended)
+        }
         None => joining.best(),
     }
 }
@@ -281,7 +292,8 @@ impl Joining<'_> {
     /// Merge curves that meet if the tolerance allows it, chain those that meet at a corner, bridge a gap.
     ///
     /// Where no bridge between the segments as they are fits the gap without a knuckle, a merged curve closes it, if there
-    /// is one, or else a bridge between finer segments, or a chain.
+    /// is one, or else a bridge between finer segments, or a chain. Where that bridge has a knuckle, too, a blend without
+    /// one comes first.
     fn best(&self) -> Result<Outcome, OperationError> {
         let second = self.second();
         let [left, right] = self.in_order(&self.parts[0].1.polygon, &second);
@@ -296,6 +308,10 @@ impl Joining<'_> {
         let (bridged, fits) = self.bridge()?;
         if fits {
             return Ok(bridged);
+        }
+        let is_clean = bridged.requirements.is_empty() && bridged.warnings.is_empty();
+        if !is_clean && let Some(blended) = self.clean_blend()? {
+            return Ok(blended);
         }
         // A hair more, so that rounding does not leave the ends apart.
         let closed = gap * (1.0 + MET);
@@ -323,17 +339,30 @@ impl Joining<'_> {
         }
     }
 
+    /// A blend with nothing to warn of.
+    fn clean_blend(&self) -> Result<Option<Outcome>, OperationError> {
+        match self.blended() {
+            Ok((blended, possible)) => {
+                let is_clean = possible <= self.most() && blended.warnings.is_empty();
+                Ok(is_clean.then_some(blended))
+            }
+            Err(OperationError::Cancelled) => Err(OperationError::Cancelled),
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// How far one curve of both may be off: without a tolerance of the user's farther than is sought.
+    fn most(&self) -> f64 {
+        match self.is_given {
+            true => self.tolerance,
+            false => self.tolerance.max(ALSO_WITHIN * self.size),
+        }
+    }
+
     /// Merge within the tolerance, or chain and say why.
     fn merged_or_chained(&self) -> Result<Outcome, OperationError> {
-        let why = match self.merged(self.tolerance) {
-            Ok((merged, possible)) if possible <= self.tolerance => return Ok(merged),
-            Ok((_, possible)) if !self.is_given && possible <= ALSO_WITHIN * self.size => {
-                let wider = possible * (1.0 + MET);
-                match self.merged(wider)? {
-                    (merged, found) if found <= wider => return Ok(merged),
-                    (_, found) => nearest_merge(self.tolerance, found.min(possible)),
-                }
-            }
+        let why = match self.merged_by(Method::Merge, [self.tolerance, self.most()]) {
+            Ok((merged, possible)) if possible <= self.most() => return Ok(merged),
             Ok((_, possible)) => nearest_merge(self.tolerance, possible),
             Err(OperationError::LockedInMerge { name }) => {
                 format!("“{name}” has locked vertices and cannot be merged")
@@ -375,6 +404,35 @@ impl Joining<'_> {
 
     /// One curve of both, and how far it is from them: not reached if that is more than the tolerance.
     fn merged(&self, tolerance: f64) -> Result<(Outcome, f64), OperationError> {
+        self.merged_by(Method::Merge, [tolerance; 2])
+    }
+
+    /// One curve of both with a blend between them, and how far it is from them.
+    fn blended(&self) -> Result<(Outcome, f64), OperationError> {
+        let allowed = [self.tolerance, self.most()];
+        let (mut outcome, possible) = self.merged_by(Method::Blend, allowed)?;
+        let made = outcome.edits.iter().find_map(|edit| match edit {
+            Edit::Renumber { polygon, .. } => Some(polygon),
+            _ => None,
+        });
+        if let Some((polygon, joint)) = made.zip(outcome.joint) {
+            let bends = Bends::between(polygon, joint);
+            let knuckle = bridge::sharper("blend", &bends);
+            let parts = self.parts.map(|(_, curve)| &curve.polygon);
+            let crossing = new_crossing(&parts, polygon);
+            outcome.warnings.extend(knuckle.into_iter().chain(crossing));
+        }
+        Ok((outcome, possible))
+    }
+
+    /// One curve of both, found in one of two ways, and how far it is from them. The tolerance is sought; where it is
+    /// missed, but not what is allowed at most, that is what the curve keeps.
+    fn merged_by(
+        &self,
+        method: Method,
+        [tolerance, most]: [f64; 2],
+    ) -> Result<(Outcome, f64), OperationError> {
+        let is_blend = method == Method::Blend;
         let [(_, first), (_, second)] = self.parts;
         for curve in [first, second] {
             if curve.locked_vertices.iter().next().is_some() {
@@ -385,7 +443,10 @@ impl Joining<'_> {
         let part = self.second();
         let [left, right] = self.in_order(&first.polygon, &part);
         let progress = self.progress.limited(MERGING);
-        let found = merge(left, right, tolerance, &progress);
+        let found = match is_blend {
+            true => merge_blended(left, right, tolerance, &progress),
+            false => merge(left, right, tolerance, &progress),
+        };
         let Merged {
             polygon,
             tracks,
@@ -393,6 +454,10 @@ impl Joining<'_> {
             bounded,
             extrema,
         } = found.map_err(|error| merge_error(error, &progress))?;
+        let tolerance = match deviation <= most {
+            true => tolerance.max(deviation * (1.0 + MET)),
+            false => tolerance,
+        };
         let deviation_is = match bounded {
             true => Deviation::AtMost(deviation),
             false => Deviation::Measured(deviation),
@@ -412,7 +477,8 @@ impl Joining<'_> {
         });
         let requirements = features(Some(extrema[1]), None).into_iter().chain(ends);
         outcome.requirements = vec![(id, requirements.chain([limit]).collect())];
-        outcome.figures = self.method("merge").into();
+        let name = if is_blend { "blend" } else { "merge" };
+        outcome.figures = self.method(name).into();
         outcome.figures.extend([
             Figure::length("tolerance", "Tolerance", tolerance),
             Figure::count("vertices", "Vertices", polygon.vertices().len()),
@@ -430,11 +496,14 @@ impl Joining<'_> {
                 .remarks
                 .push(format!("A merge within {possible} is possible"));
         }
-        let at = tracks[0].at(left.segments() as f64);
-        outcome
-            .annotations
-            .push(Annotation::Point(polygon.point(at)));
-        outcome.joint = Some([at; 2]);
+        // Ends that meet have one place, those of a blend two.
+        let mut joint = [tracks[0].at(left.segments() as f64), tracks[1].at(0.0)];
+        if !is_blend {
+            joint = [joint[0]; 2];
+        }
+        let marks = joint.map(|at| Annotation::Point(polygon.point(at)));
+        outcome.annotations.extend(marks);
+        outcome.joint = Some(joint);
         Ok((outcome, deviation))
     }
 

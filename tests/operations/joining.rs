@@ -972,3 +972,60 @@ fn a_short_curve_beside_the_end_of_a_long_one_is_merged_in_either_order() {
         assert!(moved <= 0.01 * size, "{moved}");
     }
 }
+
+/// Two cubics of one segment each, 4 apart, tangents alike: too long for a bridge of their segments.
+fn apart(gap: f64) -> [Curve; 2] {
+    let curve = |name: &str, corners: &[[f64; 2]]| {
+        let corners = corners.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0));
+        let bezier = BezierPolygon::new(3, corners.collect(), None).expect("a polygon");
+        Curve::new(name, bezier.to_float().expect("a polygon"))
+    };
+    let first = curve(
+        "a",
+        &[[0.0, 0.0], [30.0, 20.0], [60.0, 30.0], [100.0, 30.0]],
+    );
+    let from = 100.0 + gap;
+    let second = [
+        [from, 30.0],
+        [from + 36.0, 30.0],
+        [from + 66.0, 10.0],
+        [from + 96.0, -10.0],
+    ];
+    [first, curve("b", &second)]
+}
+
+#[test]
+fn a_blend_leaves_both_curves_within_what_it_tells() {
+    let curves = apart(4.0);
+    let polygons = curves.each_ref().map(|curve| curve.polygon.clone());
+    let document = Document::from_curves(curves);
+    let size = polygons
+        .each_ref()
+        .map(|it| BezierPolygon::from_float(it).size());
+    let size = size[0].max(size[1]);
+    // Without a wish it is within 1e-3 of the size, where a merge would move both by 2e-3.
+    let (outcome, after, report) = join(&document, &[]);
+    assert_eq!(text(&report, "method"), "blend", "{}", report.text());
+    let Deviation::AtMost(told) = outcome.deviation else {
+        panic!("{:?}", outcome.deviation);
+    };
+    assert!(outcome.reached && told <= 1e-3 * size, "{told}");
+    let blended = &only(&after).polygon;
+    let off = farthest([&polygons[0], &polygons[1]], blended);
+    assert!(off <= told * (1.0 + 1e-6), "{off} {told}");
+    assert_eq!(curve_crossing(blended), None);
+    let outer = [(End::Start, 0), (End::Finish, 1)];
+    for (end, part) in outer {
+        let [own, other] = [&polygons[part], blended].map(|it| it.end_jet(end));
+        assert!(own.point.distance(other.point) <= 1e-9 * size);
+        assert!(own.first.angle_between(other.first) <= 1e-7);
+    }
+    // Chosen with a tolerance that nothing keeps, it says what is possible.
+    let given = [
+        ("method", Value::Choice(4)),
+        ("tolerance", Value::List(vec![1e-9])),
+    ];
+    let (outcome, _, report) = join(&document, &given);
+    assert!(!outcome.reached, "{}", report.text());
+    assert!(report.text().contains("is possible"), "{}", report.text());
+}

@@ -1,4 +1,5 @@
-//! Two curves that meet, but for a small corner and gap, made one float polygon within a tolerance.
+//! Two curves that meet, but for a small corner and gap, or that a blend connects, made one float polygon within a
+//! tolerance.
 //!
 //! The engines that fit points with a wished number of curvature extrema fit both curves at once: the result has
 //! those of both, and at most two more at the joint. A corner and a gap are spread over as much of both curves as the
@@ -10,6 +11,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
+use super::blending::blend;
 use super::fitting::{FitRequest, fit_points};
 use crate::geometry::distance::{DistanceError, MeasuredDeviation};
 use crate::geometry::end::End;
@@ -55,8 +57,12 @@ const KEPT: f64 = 0.9;
 /// The same in space, where both ends are corrected afterwards.
 const KEPT_IN_SPACE: f64 = 0.5;
 
-/// The most vertices, by those of both curves.
+/// The most vertices, by those of both curves, and how many a blend may always take.
 const MOST: usize = 2;
+const MOST_BLENDED: usize = 60;
+
+/// The least and the most samples of a blend.
+const BLEND_SAMPLES: [usize; 2] = [2 * SAMPLES, 200];
 
 /// Vertices and weights that differ by no more than this share of the size are the same.
 const SHARED: f64 = 1e-12;
@@ -228,6 +234,7 @@ pub fn merge(
     let search = Search {
         points: points_of(parts, tolerance),
         parts,
+        most: MOST * vertices_of(parts),
         is_smooth: joint.angle <= SMOOTH && joint.meets(tolerance),
         planar: parts.iter().all(|it| it.is_planar()),
         inflections: inflections + usize::from(bends_over(parts)),
@@ -239,34 +246,55 @@ pub fn merge(
         // With few extrema a corner or a gap spreads over both curves.
         false => own,
     };
-    let others = (own..=own + ADDED).filter(|extrema| *extrema != first_tried);
-    let mut nearest: Option<Merged> = None;
-    for extrema in [first_tried].into_iter().chain(others) {
-        let found = search.with_extrema(extrema)?;
-        if progress.is_cancelled() && !progress.is_late() {
-            return Err(MergeError::Cancelled);
-        }
-        let Some(polygon) = found else {
-            continue;
-        };
-        let merged = measured(parts, polygon, [own, extrema], &progress.without_limit());
-        let merged = merged.map_err(|_| MergeError::Cancelled)?;
-        if merged.deviation <= tolerance {
-            return Ok(merged);
-        }
-        let is_nearer = |known: &Merged| merged.deviation < known.deviation;
-        if nearest.as_ref().is_none_or(is_nearer) {
-            nearest = Some(merged);
-        }
+    search.nearest(own, first_tried, own + ADDED)
+}
+
+/// Make one curve of an open one and another beyond a gap: both stay within the tolerance, and a blend with their tangents
+/// and curvatures lies between them. Otherwise as [`merge`]; the blend may bring extrema of its own.
+///
+/// # Errors
+/// [`MergeError`].
+pub fn merge_blended(
+    first: &FloatPolygon,
+    second: &FloatPolygon,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Merged, MergeError> {
+    let parts = [first, second];
+    for part in parts {
+        part.check_open("merged")?;
     }
-    nearest.ok_or(MergeError::NotFound)
+    let between = blend(first, second).ok_or(MergeError::NotFound)?;
+    let planar = parts.iter().all(|it| it.is_planar());
+    let [own, inflections] = counts_of(parts, progress)?;
+    let [blended, _] = counts_of([&between], progress)?;
+    let added = [[first, &between], [&between, second]];
+    let added = added.map(|pair| added_by_joint(pair, planar, tolerance));
+    let first_tried = own + blended + added.into_iter().sum::<usize>();
+    let search = Search {
+        points: points_over(parts, &between),
+        parts,
+        most: (MOST * vertices_of(parts)).max(MOST_BLENDED),
+        is_smooth: true,
+        planar,
+        inflections,
+        tolerance,
+        progress,
+    };
+    search.nearest(own, first_tried, first_tried + ADDED)
+}
+
+fn vertices_of(parts: [&FloatPolygon; 2]) -> usize {
+    parts.map(|it| it.vertices().len()).iter().sum()
 }
 
 /// A search for one curve along two others.
 struct Search<'a> {
     parts: [&'a FloatPolygon; 2],
     points: Vec<DVec3>,
-    /// Whether the ends meet within the tolerance and without a corner.
+    /// The most vertices.
+    most: usize,
+    /// Whether the points go on without a gap or a corner.
     is_smooth: bool,
     planar: bool,
     /// The inflections of both, and one where the curvature changes its sign at the joint.
@@ -276,6 +304,33 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// The first curve within the tolerance, with the extrema that are tried first, or from those of both up to the most;
+    /// else the nearest one.
+    fn nearest(&self, own: usize, first_tried: usize, most: usize) -> Result<Merged, MergeError> {
+        let (parts, tolerance, progress) = (self.parts, self.tolerance, self.progress);
+        let others = (own..=most).filter(|extrema| *extrema != first_tried);
+        let mut nearest: Option<Merged> = None;
+        for extrema in [first_tried].into_iter().chain(others) {
+            let found = self.with_extrema(extrema)?;
+            if progress.is_cancelled() && !progress.is_late() {
+                return Err(MergeError::Cancelled);
+            }
+            let Some(polygon) = found else {
+                continue;
+            };
+            let merged = measured(parts, polygon, [own, extrema], &progress.without_limit());
+            let merged = merged.map_err(|_| MergeError::Cancelled)?;
+            if merged.deviation <= tolerance {
+                return Ok(merged);
+            }
+            let is_nearer = |known: &Merged| merged.deviation < known.deviation;
+            if nearest.as_ref().is_none_or(is_nearer) {
+                nearest = Some(merged);
+            }
+        }
+        nearest.ok_or(MergeError::NotFound)
+    }
+
     /// The curve with so many extrema, proved, near to the points, whose ends keep point and direction.
     fn with_extrema(&self, extrema: usize) -> Result<Option<FloatPolygon>, MergeError> {
         let hurried = self.progress.hurried(SHARE);
@@ -292,14 +347,6 @@ impl Search<'_> {
     fn degree(&self) -> usize {
         let [first, second] = self.parts.map(|part| part.degree());
         first.max(second)
-    }
-
-    fn most(&self) -> usize {
-        MOST * self
-            .parts
-            .map(|it| it.vertices().len())
-            .iter()
-            .sum::<usize>()
     }
 
     /// The distance at which the search may end. A corner or a gap moves both curves however many vertices there are:
@@ -323,7 +370,7 @@ impl Search<'_> {
         let points: Vec<DVec2> = self.points.iter().map(|point| point.truncate()).collect();
         let asked = PlaneFit {
             degree: self.degree(),
-            most: Some(self.most()),
+            most: Some(self.most),
             extrema: Extrema::Exactly(extrema),
             // Across a gap the nearest curve would turn there and back.
             inflections: (!self.is_smooth).then_some(self.inflections),
@@ -345,7 +392,7 @@ impl Search<'_> {
     ) -> Result<Option<FloatPolygon>, FitError> {
         let asked = FitRequest {
             degree: self.degree(),
-            most: Some(self.most()),
+            most: Some(self.most),
             extrema: Some(extrema),
             tolerance: self.sought(KEPT_IN_SPACE),
             outliers: Some(Vec::new()),
@@ -434,13 +481,9 @@ fn counts_of<const N: usize>(
 /// Points along both curves. The ends count once, in the middle between them, unless a gap lies between them; where the
 /// curves overlap, the points beyond the middle do not count.
 fn points_of(parts: [&FloatPolygon; 2], tolerance: f64) -> Vec<DVec3> {
-    let along = |polygon: &FloatPolygon| -> Vec<DVec3> {
-        let places = (0..=SAMPLES * polygon.segments()).map(|it| it as f64 / SAMPLES as f64);
-        places.map(|u| polygon.point(u)).collect()
-    };
     let [first, second] = parts;
     let jets = [first.end_jet(End::Finish), second.end_jet(End::Start)];
-    let [mut points, mut others] = parts.map(along);
+    let [mut points, mut others] = parts.map(|it| points_along(it, SAMPLES));
     let way = jets[1].point - jets[0].point;
     let tangents = jets.map(|jet| jet.tangent().unwrap_or(DVec3::ZERO));
     let ahead = (tangents[0] + tangents[1]).normalize_or_zero();
@@ -459,6 +502,25 @@ fn points_of(parts: [&FloatPolygon; 2], tolerance: f64) -> Vec<DVec3> {
     while others.len() > 1 && others.next_if(|it| is_beyond(it, -1.0)).is_some() {}
     points.push(middle);
     points.extend(others);
+    points
+}
+
+/// Points along a curve, so many a segment.
+fn points_along(polygon: &FloatPolygon, samples: usize) -> Vec<DVec3> {
+    let places = (0..=samples * polygon.segments()).map(|it| it as f64 / samples as f64);
+    places.map(|u| polygon.point(u)).collect()
+}
+
+/// Points along both curves and the blend between them, there about as dense as beside it.
+fn points_over([first, second]: [&FloatPolygon; 2], between: &FloatPolygon) -> Vec<DVec3> {
+    let speeds = [first.end_jet(End::Finish), second.end_jet(End::Start)].map(|jet| jet.speed());
+    let step = 0.5 * (speeds[0] + speeds[1]) / SAMPLES as f64;
+    let [least, most] = BLEND_SAMPLES;
+    let needed = (between.jet(0.5).speed() / step) as usize;
+    let mut points = points_along(first, SAMPLES);
+    let blended = points_along(between, needed.clamp(least, most));
+    points.extend(blended.into_iter().skip(1));
+    points.extend(points_along(second, SAMPLES).into_iter().skip(1));
     points
 }
 

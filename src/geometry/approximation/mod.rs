@@ -1,6 +1,7 @@
 //! Float polygons near curves that are no float polygons, or of another degree.
 
 mod approximating;
+mod blending;
 mod equivalence;
 mod error;
 mod fitting;
