@@ -138,6 +138,8 @@ fn a_trim_that_changes_nothing_says_so_and_makes_no_step() {
     script.key(Key::Enter);
     assert_eq!(script.steps(), 0);
     assert!(script.editor.document().is_same(&before));
+    let offers_undo = script.editor.message().is_some_and(|it| it.offers_undo);
+    assert!(!offers_undo, "it would take back the step before");
 }
 
 #[test]

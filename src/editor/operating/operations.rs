@@ -561,12 +561,21 @@ impl Operating<'_> {
         match self.operations.operation.as_ref().and_then(|it| it.run()) {
             Some(Ok(run)) if run.succeeds() => Ok(Note {
                 warns: run.warns(),
-                ..Note::done(run.told(self.workspace.settled()))
+                offers_undo: self.has_made_step(),
+                ..Note::told(run.told(self.workspace.settled()))
             }),
             Some(Ok(run)) => Err(Refusal(run.report.summary())),
             Some(Err(error)) => Err(Refusal(error.to_string())),
             None => Ok(Note::silent()),
         }
+    }
+
+    /// Whether the operation that was applied last changed something: else Undo would take back the step before.
+    fn has_made_step(&self) -> bool {
+        let undone = self.workspace.history().undo_steps();
+        let operation = self.operations.operation.as_ref();
+        operation
+            .is_some_and(|it| matches!(it.stage, Stage::Applied { steps, .. } if undone > steps))
     }
 
     /// Apply the last run, now or once the pending one is finished; or say why it cannot be applied.
