@@ -238,3 +238,35 @@ fn a_pivot_that_is_dragged_names_what_it_snaps_to() {
         .any(|mark| matches!(mark, Mark::Name(_, name) if name == "Vertex 2"));
     assert!(named, "{marks:?}");
 }
+
+#[test]
+fn the_pivot_is_the_middle_of_the_curve_and_stays_from_one_turn_to_the_next() {
+    let mut script = Script::example("arc");
+    let before = script.polygon();
+    script.tool(ToolKind::Rotate);
+    let pivot = |script: &Script| script.editor.hand().pivot(&script.editor.context());
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for step in 0..=4000 {
+        let share = f64::from(step) / 4000.0;
+        let at = before.point(share * before.segments() as f64).truncate();
+        (low, high) = (low.min(at), high.max(at));
+    }
+    let first = pivot(&script).expect("a pivot");
+    let off = first.distance(0.5 * (low + high));
+    assert!(
+        off < 1e-3 * low.distance(high),
+        "{off}: not that of the polygon"
+    );
+    script.editor.enter("30").expect("an angle");
+    assert_eq!(pivot(&script), Some(first));
+    script.editor.enter("-30").expect("an angle");
+    let back = script.polygon();
+    let pairs = before.vertices().iter().zip(back.vertices());
+    let most = pairs.fold(0.0_f64, |most, (a, b)| most.max(a.distance(*b)));
+    assert!(most <= 1e-12 * before.size(), "{most}");
+    // Another tool, and it follows the curve again.
+    script.tool(ToolKind::Select);
+    script.drag_vertex(0, DVec2::new(80.0, 0.0));
+    script.tool(ToolKind::Rotate);
+    assert_ne!(pivot(&script), Some(first));
+}

@@ -97,6 +97,9 @@ impl Editor {
         };
         let staying = context.staying();
         let reply = self.apply(&label, edits);
+        if reply.is_ok() && !matches!(transformation, Transformation::Move(_)) {
+            self.hand.settings.turned = Some((pivot, self.hand.selection.clone()));
+        }
         match staying {
             Some(staying) if reply.is_ok() => self.tell(Ok(Note::done(staying))),
             _ => reply,

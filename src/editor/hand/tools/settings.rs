@@ -6,6 +6,7 @@ use super::draw_way::DrawWay;
 use super::measured::Measurement;
 use crate::editor::hand::drawing_plane::LegLocks;
 use crate::editor::hand::end_fit::{EndFitSettings, LastAction};
+use crate::editor::selection::Selection;
 
 /// Hold what tools share with panels and with each other.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +19,8 @@ pub struct ToolSettings {
     pub locks: LegLocks,
     /// Where the user has put the pivot of rotations and scalings; `None` while it follows the selection.
     pub pivot: Option<DVec2>,
+    /// The pivot of the last rotation or scaling, and what was selected: it stays as long as the selection.
+    pub turned: Option<(DVec2, Selection)>,
     /// The finished measurement.
     pub measurement: Option<Measurement>,
     /// The settings of the end-fit tool.
@@ -40,6 +43,7 @@ impl ToolSettings {
     pub(super) fn renew(&mut self) {
         self.locks = LegLocks::default();
         self.pivot = None;
+        self.turned = None;
         self.end_fit.picking = false;
         self.end_fit.closed = false;
     }

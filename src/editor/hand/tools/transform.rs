@@ -135,13 +135,18 @@ impl TransformTool {
     }
 }
 
-/// The pivot: where it was put, or the middle of what would be transformed, if there is anything.
+/// The pivot: where it was put, or where it was for the same selection, or the middle of what would be transformed, if
+/// there is anything.
 pub(in crate::editor) fn pivot(context: &Context) -> Option<DVec2> {
     pivot_of(context.settings.pivot, context)
 }
 
 fn pivot_of(put: Option<DVec2>, context: &Context) -> Option<DVec2> {
-    put.or_else(|| Transformed::of(context).middle(context))
+    let turned = context.settings.turned.as_ref();
+    let stays = turned.filter(|(_, selection)| selection == context.selection);
+    let stays = stays.map(|(pivot, _)| *pivot);
+    put.or(stays)
+        .or_else(|| Transformed::of(context).middle(context))
 }
 
 /// Put the pivot somewhere, or let it follow the selection again.
@@ -173,7 +178,10 @@ impl Tool for TransformTool {
                 Some(vertex) => vec![Effect::Select(vec![vertex])],
                 None => reference_at(place, context),
             },
-            (State::Idle, Gesture::DoubleClick(_)) => vec![put_pivot(None, context)],
+            (State::Idle, Gesture::DoubleClick(_)) => vec![context.set(|settings| {
+                settings.pivot = None;
+                settings.turned = None;
+            })],
             (State::Idle, Gesture::Key(Key::Escape)) => vec![Effect::Finish],
             (State::MovingPivot { before }, Gesture::Drag(place)) => {
                 self.state = State::MovingPivot { before };
@@ -188,9 +196,11 @@ impl Tool for TransformTool {
                 self.state = State::Turning(turning);
                 vec![Effect::preview(edits)]
             }
-            (State::Turning(_), Gesture::DragEnd(_)) => {
+            (State::Turning(turning), Gesture::DragEnd(_)) => {
+                let turned = Some((turning.pivot, context.selection.clone()));
+                let stays = context.set(|settings| settings.turned = turned);
                 let staying = context.staying().map(Effect::Say);
-                [Effect::Commit].into_iter().chain(staying).collect()
+                [Effect::Commit, stays].into_iter().chain(staying).collect()
             }
             (State::Turning(_), Gesture::Cancel) => vec![Effect::Abort],
             // A typed figure that was not entered is dropped.

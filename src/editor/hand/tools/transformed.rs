@@ -68,11 +68,18 @@ impl Transformed {
     /// The middle of the items as they are seen, if there are any.
     pub fn middle(&self, context: &Context) -> Option<DVec2> {
         let mut bounds = Bounds::EMPTY;
-        for (_, vertex) in &self.vertices {
-            bounds.add(context.viewport.flatten(*vertex));
+        let mut whole: BTreeSet<CurveId> = self.references.iter().map(|(id, _)| *id).collect();
+        // A curve as a whole is where it is drawn, however far its polygon reaches.
+        if context.selection.is_empty() {
+            whole.extend(self.vertices().map(|(curve, _)| curve));
         }
-        for (id, _) in &self.references {
-            if let Some(outlines) = context.hits.view.outlines.get(*id) {
+        for ((curve, _), vertex) in &self.vertices {
+            if !whole.contains(curve) {
+                bounds.add(context.viewport.flatten(*vertex));
+            }
+        }
+        for id in whole {
+            if let Some(outlines) = context.hits.view.outlines.get(id) {
                 bounds = bounds.united(outlines.curve.bounds());
             }
         }
