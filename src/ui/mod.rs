@@ -101,7 +101,7 @@ const SIZE: [f32; 2] = [1440.0, 900.0];
 const LEAST: [f32; 2] = [960.0, 640.0];
 
 /// How much work is lost at most when the program ends badly.
-const AUTOSAVE_PERIOD: Duration = Duration::from_secs(30);
+const AUTOSAVE_PERIOD: Duration = Duration::from_secs(10);
 
 /// The variable that sets another period, in seconds: for tests.
 const AUTOSAVE_VARIABLE: &str = "BATTEN_AUTOSAVE_SECONDS";
