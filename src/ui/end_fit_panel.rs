@@ -256,7 +256,8 @@ fn difference_ui(ui: &mut Ui, report: &EndFitReport) {
 /// Step 7, which is always in reach.
 fn last_step_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
     ui.set_max_width(ui.available_width() - ui.spacing().scroll.allocated_width());
-    step_ui(ui, 7, "Refine and repeat", report.within, |ui| {
+    let is_met = report.targets > 0 && report.within;
+    step_ui(ui, 7, "Refine and repeat", is_met, |ui| {
         let button = Button::new("Repeat").min_size(vec2(BUTTON, ROW));
         let help = "Repeat steps 2 to 6 on both ends until within the tolerance";
         let bends = bends(report);

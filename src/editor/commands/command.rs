@@ -266,7 +266,7 @@ impl Command {
             }
             Self::Isolate => "Show only what is selected; again, show what that has hidden",
             Self::Fit => "Show the selected vertices, or the selected curves if fewer than two are",
-            Self::FitAll => "Show everything",
+            Self::FitAll => "Zoom to fit everything",
             Self::ZoomIn => "Enlarge the view",
             Self::ZoomOut => "Show more of the model",
             Self::View(_) => "See the model from this side; drag with the right button to orbit",
