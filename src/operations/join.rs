@@ -21,6 +21,7 @@ use super::parameter::{Choice, Kind, POSITIVE, Parameter};
 use super::targets::place_of;
 use super::values::Values;
 use crate::document::{Edit, EndMatch, MatchPlace};
+use crate::geometry::approximation::blend;
 use crate::geometry::approximation::merging::{
     Joint, MergeError, Merged, Track, merge, merge_blended,
 };
@@ -339,8 +340,15 @@ impl Joining<'_> {
         }
     }
 
-    /// A blend with nothing to warn of.
+    /// A blend with nothing to warn of: the search takes long where the quintic alone shows that there is none.
     fn clean_blend(&self) -> Result<Option<Outcome>, OperationError> {
+        let second = self.second();
+        let [left, right] = self.in_order(&self.parts[0].1.polygon, &second);
+        let between = blend(left, right);
+        let is_bent = |it: &FloatPolygon| Bends::between(it, [0.0, 1.0]).is_knuckle();
+        if between.as_ref().is_none_or(is_bent) {
+            return Ok(None);
+        }
         match self.blended() {
             Ok((blended, possible)) => {
                 let is_clean = possible <= self.most() && blended.warnings.is_empty();

@@ -30,7 +30,7 @@ const REFINEMENTS: usize = 6;
 
 /// Find the blend from the end of the first curve to the start of the second. `None` where the ends have no directions,
 /// or coincide.
-pub(super) fn blend(first: &FloatPolygon, second: &FloatPolygon) -> Option<FloatPolygon> {
+pub fn blend(first: &FloatPolygon, second: &FloatPolygon) -> Option<FloatPolygon> {
     let jets = [first.end_jet(End::Finish), second.end_jet(End::Start)];
     let planar = first.is_planar() && second.is_planar();
     let gap = jets[0].point.distance(jets[1].point);

@@ -15,6 +15,7 @@ pub use approximating::{
     Approximated, ApproximationRequest, Goal, MOST_FOR_SHAPE, MOST_SEGMENTS, approximate_between,
     approximate_by_steps, approximate_to_tolerance,
 };
+pub use blending::blend;
 pub use equivalence::{LevelComparison, LevelFeature, SideBySide};
 pub use error::ApproximationError;
 pub use fitting::{FitError, FitRequest, Fitted, fit_points};
