@@ -93,6 +93,6 @@ pub use sampler::{BATCH_ORDER, Batch, Sampler};
 pub use segment_expansion::SegmentExpansion;
 pub use spacing::Spacing;
 pub use wording::{
-    SMALL, coordinate, counted, degrees_text, figure, noun, panic_message, radius_of, rounded_up,
-    significant, to_resolution,
+    SMALL, coordinate, counted, degrees_text, figure, noun, panic_message, percent, radius_of,
+    rounded_up, significant, to_resolution,
 };

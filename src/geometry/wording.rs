@@ -30,6 +30,14 @@ pub fn figure(value: f64) -> String {
     significant(value, 7)
 }
 
+/// Write a share in per cent: two significant digits, from 10 % on whole ones.
+pub fn percent(share: f64) -> String {
+    match 100.0 * share {
+        whole if whole >= 10.0 => format!("{whole:.0} %"),
+        small => format!("{} %", significant(small, 2)),
+    }
+}
+
 /// Write a number with some significant digits: plainly where that is short, otherwise with an
 /// exponent, and then without zeros at its end: 1e-9.
 pub fn significant(value: f64, digits: usize) -> String {

@@ -14,7 +14,7 @@ use crate::geometry::fairing::counts::CountRequest;
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::{
-    Approximation, BezierPolygon, FloatPolygon, MAX_PART_SEGMENTS, Progress, significant,
+    Approximation, BezierPolygon, FloatPolygon, MAX_PART_SEGMENTS, Progress, percent, significant,
 };
 
 /// The parameter that is the degree which the curve gets.
@@ -285,9 +285,9 @@ fn by_distance(found: Approximation, polygon: &FloatPolygon, progress: &Progress
 fn far(polygon: &FloatPolygon, changed: &Approximation) -> Option<String> {
     let size = BezierPolygon::from_float(polygon).size();
     (changed.deviation > FAR * size).then(|| {
-        let [moved, share] = [changed.deviation, 100.0 * changed.deviation / size];
-        let [moved, share] = [significant(moved, 3), significant(share, 2)];
-        format!("The curve moves by {moved}, {share} % of its size: give a tolerance")
+        let moved = significant(changed.deviation, 3);
+        let share = percent(changed.deviation / size);
+        format!("The curve moves by {moved}, {share} of its size: give a tolerance")
     })
 }
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::geometry::fitting::{Fitted, PlaneFit, SharpBend};
 use crate::geometry::polygon_figures::{FOLD, sharpest_turn};
-use crate::geometry::{BezierPolygon, End, FloatPolygon, significant};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, percent, significant};
 
 /// A vertex farther off the curve than so many times its size is named.
 const LONG_TAIL: f64 = 5.0;
@@ -56,8 +56,8 @@ pub(super) fn warnings(asked: &PlaneFit, found: &Fitted) -> Vec<String> {
 fn far(found: &Fitted, size: f64) -> Option<String> {
     (found.deviation > found.tolerance.max(FAR * size)).then(|| {
         let off = significant(found.deviation, 3);
-        let share = significant(100.0 * found.deviation / size, 2);
-        format!("Points lie up to {off} off the curve, {share} % of its size: allow more extrema or vertices")
+        let share = percent(found.deviation / size);
+        format!("Points lie up to {off} off the curve, {share} of its size: allow more extrema or vertices")
     })
 }
 

@@ -24,7 +24,8 @@ use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{
-    BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, rounded_up, significant,
+    BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, percent, rounded_up,
+    significant,
 };
 
 /// How far the curve may move without a wish, by its size.
@@ -300,9 +301,9 @@ fn far(curve: &Curve, found: &Harmonised) -> Option<String> {
     let size = BezierPolygon::from_float(&curve.polygon).size();
     (found.deviation > TOLD * size).then(|| {
         let moved = significant(found.deviation, 3);
-        let share = significant(100.0 * found.deviation / size, 2);
+        let share = percent(found.deviation / size);
         format!(
-            "The curve moves by {moved}, {share} % of its size: keep less at its ends, or allow more extrema"
+            "The curve moves by {moved}, {share} of its size: keep less at its ends, or allow more extrema"
         )
     })
 }

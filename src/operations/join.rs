@@ -30,7 +30,7 @@ use crate::geometry::fairing::bends::Bends;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{
-    BezierPolygon, Continuity, End, FloatPolygon, Progress, rounded_up, significant,
+    BezierPolygon, Continuity, End, FloatPolygon, Progress, percent, rounded_up, significant,
 };
 
 const METHOD: Parameter = Parameter {
@@ -450,7 +450,12 @@ impl Joining<'_> {
         }
         let part = self.second();
         let [left, right] = self.in_order(&first.polygon, &part);
-        let progress = self.progress.limited(MERGING);
+        // What is found on the way may not be what is taken.
+        let progress = match self::method(self.values) {
+            Some(_) => self.progress.clone(),
+            None => self.progress.unshown(),
+        };
+        let progress = progress.limited(MERGING);
         let found = match is_blend {
             true => merge_blended(left, right, tolerance, &progress),
             false => merge(left, right, tolerance, &progress),
@@ -653,15 +658,20 @@ impl Joining<'_> {
             significant(moved, 3)
         );
         let size = BezierPolygon::from_float(&second.polygon).size();
-        let share = significant(100.0 * moved / size, 2);
+        let share = percent(moved / size);
+        // Who asks for a chain knows that it moves the second.
+        let another = match method(self.values) {
+            Some(_) => ANOTHER,
+            None => FAR,
+        };
         if moved > FAR * size && moved > FARTHER * joint.distance {
             outcome.warnings.push(format!(
-                "{told}, {share} % of its size: chain up to less, or merge"
+                "{told}, {share} of its size: chain up to less, or merge"
             ));
-        } else if moved > ANOTHER * size {
+        } else if moved > another * size {
             outcome
                 .warnings
-                .push(format!("{told}, {share} % of its size: Bridge keeps both"));
+                .push(format!("{told}, {share} of its size: Bridge keeps both"));
         } else {
             outcome.remarks.push(told);
         }
