@@ -458,7 +458,9 @@ impl Operating<'_> {
         }
         current.run = Some(run);
         current.pending = false;
-        let applies = current.applies;
+        let warns = current.finished().is_some_and(Run::warns);
+        let waits = current.applies && current.end_fit.is_none() && !current.is_applied();
+        let applies = current.applies && !(waits && warns);
         match current.stage {
             Stage::Previewed(_) => {
                 self.show_run();
@@ -481,6 +483,11 @@ impl Operating<'_> {
                 Some(step) => self.keep_end_fit_action(step, &reply),
                 None => *self.message = Message::of(&reply),
             }
+        }
+        if waits && warns {
+            // Nobody could see it before.
+            let note = Note::told("Not applied yet: look at the warning, Enter applies");
+            *self.message = Message::of(&Ok(Note { warns, ..note }));
         }
         if succeeds {
             self.request_features();
