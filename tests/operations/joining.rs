@@ -771,11 +771,13 @@ fn a_bridge_that_goes_a_long_way_round_is_told_or_merged_instead() {
         let document = Document::from_curves([first, second]);
         let (outcome, _, report) = join(&document, &[]);
         let told = format!("trial {trial}: {}", report.text());
-        assert_eq!(text(&report, "method"), "merge", "{told}");
-        assert!(
-            outcome.reached && told.contains("Merged: no plain bridge fits the gap"),
-            "{told}"
-        );
+        // A blend keeps both curves; a merge says that it moves them.
+        let is_told = match text(&report, "method") {
+            "blend" => report.warnings.is_empty(),
+            "merge" => told.contains("Merged: no plain bridge fits the gap"),
+            _ => false,
+        };
+        assert!(outcome.reached && is_told, "{told}");
         let (bridged, _, report) = join(&document, &[("method", Value::Choice(2))]);
         let told = report.text();
         let said = match bridged.reached {
