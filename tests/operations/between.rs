@@ -327,13 +327,18 @@ fn two_curves_offer_their_nearest_ends() {
 }
 
 #[test]
-fn one_curve_is_closed_and_curves_without_ends_offer_none() {
+fn a_segment_goes_on_from_one_curve_and_curves_without_ends_offer_none() {
     let (first, _) = two_curves();
     let document = Document::from_curves(vec![first.clone()]);
     let input = Operands::new(&document, document.ids()).expect("it is there");
     let outcome = run(&input, &[]).expect("an answer");
-    let ends = [End::Finish, End::Start].map(|end| first.polygon.end_jet(end).point);
-    assert_eq!([point(&outcome, 0), point(&outcome, 1)], ends);
+    let end = first.polygon.end_jet(End::Finish);
+    assert_eq!(point(&outcome, 0), end.point);
+    assert!(outcome.reached);
+    let start = made(&input, &outcome).polygon.end_jet(End::Start);
+    assert!(start.first.angle_between(end.first) < 1e-6);
+    let sides = [start, end].map(|jet| jet.signed_curvature().signum());
+    assert_eq!(sides[0], sides[1]);
     let points = (0..8).map(|index| DVec3::from((DVec2::from_angle(f64::from(index)), 0.0)));
     let polygon = FloatPolygon::new(3, points.collect(), None, true).expect("a polygon");
     let document = Document::from_curves(vec![Curve::new("ring", polygon)]);

@@ -459,7 +459,9 @@ impl Operating<'_> {
         current.run = Some(run);
         current.pending = false;
         let warns = current.finished().is_some_and(Run::warns);
-        let waits = current.applies && current.end_fit.is_none() && !current.is_applied();
+        // Of a search the best so far was seen, and its warnings may be.
+        let is_seen = current.end_fit.is_some() || current.operation.can_be_stopped();
+        let waits = current.applies && !is_seen && !current.is_applied();
         let applies = current.applies && !(waits && warns);
         match current.stage {
             Stage::Previewed(_) => {
