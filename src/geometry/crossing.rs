@@ -19,6 +19,18 @@ pub fn curve_crossing(polygon: &FloatPolygon) -> Option<DVec2> {
     crossing(&points)
 }
 
+/// Find a point where a curve of the plane crosses itself, if none of those that it was made of does. `None` for a curve in
+/// space.
+pub fn new_crossing(before: &[&FloatPolygon], after: &FloatPolygon) -> Option<DVec2> {
+    let crosses = |polygon: &FloatPolygon| match polygon.is_planar() {
+        true => curve_crossing(polygon),
+        false => None,
+    };
+    let at = crosses(after)?;
+    let is_new = before.iter().all(|polygon| crosses(polygon).is_none());
+    is_new.then_some(at)
+}
+
 /// Find a point where a polyline crosses itself: the first one found from the side of the least x. Legs that only
 /// touch, but for rounding, do not cross. `None` if it does not cross itself.
 pub(super) fn crossing(points: &[DVec2]) -> Option<DVec2> {

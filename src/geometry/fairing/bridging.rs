@@ -13,7 +13,7 @@ use super::problem::Problem;
 use super::walk::walk;
 use crate::geometry::arc_length::arc_length_between;
 use crate::geometry::basis::uniform_basis_derivative;
-use crate::geometry::crossing::curve_crossing;
+use crate::geometry::crossing::new_crossing;
 use crate::geometry::end::End;
 use crate::geometry::error::PolygonError;
 use crate::geometry::features::Features;
@@ -140,7 +140,8 @@ pub enum BridgeError {
 /// the most even bridge wins: with the smallest sum of the largest second differences of legs, turning
 /// and torsion angles, times 1 + the features that it shows, the number of its legs, and the square of
 /// 1 + its bending energy times its length; where the second part moves, the one with
-/// the fewest features, then the shortest move; one that makes a curve of the plane cross itself comes last. The logarithms of weights go on as a cubic.
+/// the fewest features, then the shortest move; one that makes a curve of the plane cross itself comes last. The
+/// logarithms of weights go on as a cubic.
 ///
 /// A bridge has n segments at least, about as long as those beside it. Where it goes a long way round for that,
 /// turns by half a turn more than the cubic between the ends of a short gap, or bends much more than its ends, the
@@ -583,22 +584,15 @@ impl Parts {
         let bridge = first..first + count;
         let pairs = self.second.vertices().iter().zip(&second);
         let moved = pairs.fold(0.0_f64, |most, (a, b)| most.max(a.distance(*b)));
-        let features = match self.is_crossed_by(&polygon) {
-            true => f64::INFINITY,
-            false => features(&polygon, &bridge)? as f64,
+        let features = match new_crossing(&[&self.first, &self.second], &polygon) {
+            Some(_) => f64::INFINITY,
+            None => features(&polygon, &bridge)? as f64,
         };
         Ok(Trial {
             rank: (features, moved),
             polygon,
             bridge,
         })
-    }
-
-    /// Whether a composite of the plane crosses itself, and no part does.
-    fn is_crossed_by(&self, polygon: &FloatPolygon) -> bool {
-        let crosses = |polygon: &FloatPolygon| curve_crossing(polygon).is_some();
-        let parts = [&self.first, &self.second];
-        self.is_planar() && crosses(polygon) && !parts.into_iter().any(crosses)
     }
 }
 
