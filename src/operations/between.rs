@@ -90,14 +90,14 @@ const FROM: Parameter = Parameter {
     name: "from",
     label: "From",
     help: "Where the segment starts",
-    kind: Kind::list(2..=2, |_| "the curve's end, or 0, 0"),
+    kind: Kind::list(2..=2, |_| "by the curves, or 0, 0"),
 };
 
 const FROM_DIRECTION: Parameter = Parameter {
     name: "from-direction",
     label: "From direction",
     help: "The direction in which it starts",
-    kind: Kind::list(2..=2, |_| "the curve's, or 2, 2"),
+    kind: Kind::list(2..=2, |_| "by the curves, or 2, 2"),
 };
 
 const FROM_CURVATURE: Parameter = Parameter {
@@ -111,14 +111,14 @@ const TO: Parameter = Parameter {
     name: "to",
     label: "To",
     help: "Where the segment ends",
-    kind: Kind::list(2..=2, |_| "the other's end, or ahead"),
+    kind: Kind::list(2..=2, |_| "by the curves, or 10, 0"),
 };
 
 const TO_DIRECTION: Parameter = Parameter {
     name: "to-direction",
     label: "To direction",
     help: "The direction in which it ends",
-    kind: Kind::list(2..=2, |_| "the other's, or ahead"),
+    kind: Kind::list(2..=2, |_| "by the curves, or 3, -1.5"),
 };
 
 const TO_CURVATURE: Parameter = Parameter {
@@ -406,13 +406,8 @@ fn going_on(curve: &FloatPolygon) -> Ends {
     let jet = curve.end_jet(End::Finish);
     let bends_left = jet.signed_curvature() > 0.0;
     let tangent = jet.tangent().unwrap_or(DVec3::X).truncate();
-    let seen = |it: DVec2| {
-        if bends_left {
-            DVec2::new(it.x, -it.y)
-        } else {
-            it
-        }
-    };
+    let side = if bends_left { -1.0 } else { 1.0 };
+    let seen = |it: DVec2| DVec2::new(it.x, side * it.y);
     let turn = seen(ENDS.directions[0]).normalize().angle_to(tangent);
     let scale = 0.5 * BezierPolygon::from_float(curve).size() / ENDS.points[1].length();
     let moved = |it: DVec2| scale * DVec2::from_angle(turn).rotate(seen(it));

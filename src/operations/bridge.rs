@@ -111,12 +111,8 @@ pub(super) fn spike(found: &Bridged) -> Option<String> {
 
 /// Say that a bridge bends more than so many times as sharply as it needs to.
 fn bent(found: &Bridged, most: f64) -> Option<String> {
-    (found.bends.excess() > most).then(|| {
-        format!(
-            "A bridge is bent to a radius of {}",
-            significant(1.0 / found.bends.largest, 3)
-        )
-    })
+    let radius = radius(&found.bends);
+    (found.bends.excess() > most).then(|| format!("A bridge is bent to a radius of {radius}"))
 }
 
 /// Say that a bridge is bent more sharply than its ends and the gap make one expect.
@@ -127,10 +123,15 @@ pub(super) fn knuckle(found: &Bridged) -> Option<String> {
 /// Say that what connects two ends is bent more sharply than they and the gap make one expect.
 pub(super) fn sharper(name: &str, bends: &Bends) -> Option<String> {
     bends.is_knuckle().then(|| {
-        let radius = significant(1.0 / bends.largest, 3);
+        let radius = radius(bends);
         let times = significant(bends.excess(), 2);
         format!("The {name} is bent to a radius of {radius}, {times} times as sharply as its ends ask for")
     })
+}
+
+/// The smallest radius, as text.
+fn radius(bends: &Bends) -> String {
+    significant(1.0 / bends.largest, 3)
 }
 
 /// Annotate the vertices of a bridge.

@@ -121,6 +121,9 @@ const ACROSS: f64 = 0.01;
 /// The share of a tolerance that is tried where nothing is found with it.
 const NEARER: f64 = 0.2;
 
+/// A composite with so many times the vertices of both curves is told: nobody shapes it by hand any more.
+const CROWDED: usize = 4;
+
 /// A chain that moves the second curve by more than this share of its size, and so many times the gap, is told as a
 /// warning: closing the gap must move it, a demand for curvature need not throw it.
 const FAR: f64 = 0.01;
@@ -316,10 +319,11 @@ impl Joining<'_> {
         }
         // A hair more, so that rounding does not leave the ends apart.
         let closed = gap * (1.0 + MET);
-        let tolerance = self.tolerance.max(match gap > SMALL * self.size {
-            true => ACROSS * self.size,
-            false => closed,
-        });
+        let tolerance = match gap > SMALL * self.size {
+            _ if self.is_given => self.tolerance,
+            true => self.tolerance.max(ACROSS * self.size),
+            false => self.tolerance.max(closed),
+        };
         let merged = match self.merged(tolerance) {
             // A search for a nearer curve goes other ways.
             Err(OperationError::Merge(MergeError::NotFound)) => self.merged(NEARER * tolerance),
@@ -417,20 +421,7 @@ impl Joining<'_> {
 
     /// One curve of both with a blend between them, and how far it is from them.
     fn blended(&self) -> Result<(Outcome, f64), OperationError> {
-        let allowed = [self.tolerance, self.most()];
-        let (mut outcome, possible) = self.merged_by(Method::Blend, allowed)?;
-        let made = outcome.edits.iter().find_map(|edit| match edit {
-            Edit::Renumber { polygon, .. } => Some(polygon),
-            _ => None,
-        });
-        if let Some((polygon, joint)) = made.zip(outcome.joint) {
-            let bends = Bends::between(polygon, joint);
-            let knuckle = bridge::sharper("blend", &bends);
-            let parts = self.parts.map(|(_, curve)| &curve.polygon);
-            let crossing = new_crossing(&parts, polygon);
-            outcome.warnings.extend(knuckle.into_iter().chain(crossing));
-        }
-        Ok((outcome, possible))
+        self.merged_by(Method::Blend, [self.tolerance, self.most()])
     }
 
     /// One curve of both, found in one of two ways, and how far it is from them. The tolerance is sought; where it is
@@ -507,12 +498,16 @@ impl Joining<'_> {
             let possible = rounded_up(deviation);
             outcome
                 .remarks
-                .push(format!("A merge within {possible} is possible"));
+                .push(format!("A {name} within {possible} is possible"));
         }
         // Ends that meet have one place, those of a blend two.
         let mut joint = [tracks[0].at(left.segments() as f64), tracks[1].at(0.0)];
-        if !is_blend {
-            joint = [joint[0]; 2];
+        if is_blend {
+            let knuckle = bridge::sharper("blend", &Bends::between(&polygon, joint));
+            let crossing = new_crossing(&[left, right], &polygon);
+            outcome.warnings.extend(knuckle.into_iter().chain(crossing));
+        } else {
+            joint[1] = joint[0];
         }
         let marks = joint.map(|at| Annotation::Point(polygon.point(at)));
         outcome.annotations.extend(marks);
@@ -587,6 +582,7 @@ impl Joining<'_> {
                 outcome.requirements = failed.clone();
             }
         }
+        outcome.warnings.extend(self.crowded(&found.polygon));
         let size = BezierPolygon::from_float(&second.polygon).size();
         if changed.deviation > FAR * size {
             let (degree, moved) = (first.polygon.degree(), significant(changed.deviation, 3));
@@ -607,6 +603,20 @@ impl Joining<'_> {
         }
         let is_plain = found.is_plain && fault.is_none() && outcome.warnings.is_empty();
         Ok((outcome, is_plain))
+    }
+
+    /// Say that a composite has many more vertices than both curves.
+    fn crowded(&self, composite: &FloatPolygon) -> Option<String> {
+        let own: usize = self
+            .parts
+            .iter()
+            .map(|(_, it)| it.polygon.vertices().len())
+            .sum();
+        let count = composite.vertices().len();
+        let text = format!(
+            "The bridge leads to {count} vertices, both curves have {own}: Blend takes fewer"
+        );
+        (count > CROWDED * own).then_some(text)
     }
 
     /// Let the second curve follow the end of the first.

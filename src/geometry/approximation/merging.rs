@@ -35,8 +35,10 @@ const BENT: f64 = 15.0 * PI / 180.0;
 /// The largest gap between curves that are merged, by the size of the larger one.
 const GAP: f64 = 0.05;
 
-/// The samples of a segment that the merged curve is near to.
+/// The samples of a segment that the merged curve is near to, and those at least of a whole curve that is blended: a fit
+/// has at most half as many vertices. Curves that are merged have no more, as a dense short one would bend the joint.
 const SAMPLES: usize = 6;
+const LEAST_SAMPLES: usize = 36;
 
 /// The samples of a segment by which places of the curves are followed along the merged one.
 const TRACKED: usize = 16;
@@ -137,8 +139,11 @@ pub enum MergeError {
         gap: Option<f64>,
     },
     /// No curve was found.
-    #[error("no curve with up to {ADDED} curvature extrema more than both was found: choose Chain")]
+    #[error("no curve with as few curvature extrema was found: choose Chain")]
     NotFound,
+    /// The ends leave no room for a blend, or have no direction.
+    #[error("no blend lies between ends that meet or have no direction: choose Merge or Chain")]
+    NoBlend,
     /// The computation was ended early.
     #[error("merging was cancelled")]
     Cancelled,
@@ -219,10 +224,7 @@ pub fn merge(
     tolerance: f64,
     progress: &Progress,
 ) -> Result<Merged, MergeError> {
-    let parts = [first, second];
-    for part in parts {
-        part.check_open("merged")?;
-    }
+    let parts = open_parts(first, second)?;
     let joint = Joint::between(first, second);
     joint.check(first.size().max(second.size()), tolerance)?;
     let [own, inflections] = counts_of(parts, progress)?;
@@ -260,11 +262,8 @@ pub fn merge_blended(
     tolerance: f64,
     progress: &Progress,
 ) -> Result<Merged, MergeError> {
-    let parts = [first, second];
-    for part in parts {
-        part.check_open("merged")?;
-    }
-    let between = blend(first, second).ok_or(MergeError::NotFound)?;
+    let parts = open_parts(first, second)?;
+    let between = blend(first, second).ok_or(MergeError::NoBlend)?;
     let planar = parts.iter().all(|it| it.is_planar());
     let [own, inflections] = counts_of(parts, progress)?;
     let [blended, _] = counts_of([&between], progress)?;
@@ -282,6 +281,17 @@ pub fn merge_blended(
         progress,
     };
     search.nearest(own, first_tried, first_tried + ADDED)
+}
+
+fn open_parts<'a>(
+    first: &'a FloatPolygon,
+    second: &'a FloatPolygon,
+) -> Result<[&'a FloatPolygon; 2], PolygonError> {
+    let parts = [first, second];
+    for part in parts {
+        part.check_open("merged")?;
+    }
+    Ok(parts)
 }
 
 fn vertices_of(parts: [&FloatPolygon; 2]) -> usize {
@@ -483,7 +493,7 @@ fn counts_of<const N: usize>(
 fn points_of(parts: [&FloatPolygon; 2], tolerance: f64) -> Vec<DVec3> {
     let [first, second] = parts;
     let jets = [first.end_jet(End::Finish), second.end_jet(End::Start)];
-    let [mut points, mut others] = parts.map(|it| points_along(it, SAMPLES));
+    let [mut points, mut others] = parts.map(|it| sampled(it, SAMPLES));
     let way = jets[1].point - jets[0].point;
     let tangents = jets.map(|jet| jet.tangent().unwrap_or(DVec3::ZERO));
     let ahead = (tangents[0] + tangents[1]).normalize_or_zero();
@@ -505,22 +515,27 @@ fn points_of(parts: [&FloatPolygon; 2], tolerance: f64) -> Vec<DVec3> {
     points
 }
 
+/// The samples of each segment of a curve that is blended.
+fn samples_of(polygon: &FloatPolygon) -> usize {
+    SAMPLES.max(LEAST_SAMPLES.div_ceil(polygon.segments()))
+}
+
 /// Points along a curve, so many a segment.
-fn points_along(polygon: &FloatPolygon, samples: usize) -> Vec<DVec3> {
+fn sampled(polygon: &FloatPolygon, samples: usize) -> Vec<DVec3> {
     let places = (0..=samples * polygon.segments()).map(|it| it as f64 / samples as f64);
     places.map(|u| polygon.point(u)).collect()
 }
 
 /// Points along both curves and the blend between them, there about as dense as beside it.
 fn points_over([first, second]: [&FloatPolygon; 2], between: &FloatPolygon) -> Vec<DVec3> {
-    let speeds = [first.end_jet(End::Finish), second.end_jet(End::Start)].map(|jet| jet.speed());
-    let step = 0.5 * (speeds[0] + speeds[1]) / SAMPLES as f64;
+    let beside = [(first, End::Finish), (second, End::Start)];
+    let steps = beside.map(|(part, end)| part.end_jet(end).speed() / samples_of(part) as f64);
+    let needed = (between.jet(0.5).speed() * 2.0 / (steps[0] + steps[1])) as usize;
     let [least, most] = BLEND_SAMPLES;
-    let needed = (between.jet(0.5).speed() / step) as usize;
-    let mut points = points_along(first, SAMPLES);
-    let blended = points_along(between, needed.clamp(least, most));
+    let mut points = sampled(first, samples_of(first));
+    let blended = sampled(between, needed.clamp(least, most));
     points.extend(blended.into_iter().skip(1));
-    points.extend(points_along(second, SAMPLES).into_iter().skip(1));
+    points.extend(sampled(second, samples_of(second)).into_iter().skip(1));
     points
 }
 
