@@ -20,6 +20,11 @@ const NEAR_ENDS: f64 = 0.1;
 /// Samples of a piece among which the nose is looked for.
 const SAMPLES: usize = 8;
 
+/// With so many points a piece, and at most a curve that bends, the deviation falls with the square of their number, or
+/// slower; a number this many times too large is out of reach then.
+const SETTLED: usize = 16;
+const FAR: f64 = 4.0;
+
 /// How points are spread over a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Spacing {
@@ -82,26 +87,33 @@ impl Spacing {
     /// of the curve.
     ///
     /// The number is doubled until they do, then bisected: where the deviation does not fall with the number, a
-    /// smaller one may do, too. `None` if it takes more than 100 000 points.
+    /// smaller one may do, too. `None` if it takes more than 100 000 points, or would if it falls with the square of
+    /// the number.
     pub fn within(self, curve: &dyn ParametricCurve, tolerance: f64) -> Option<Vec<f64>> {
         let spread = |count: usize| {
             let parameters = self.parameters(curve, count);
-            (polyline_deviation(curve, &parameters) <= tolerance).then_some(parameters)
+            let deviation = polyline_deviation(curve, &parameters);
+            (parameters, deviation)
         };
-        let mut low = 1;
-        let mut high = 2;
+        let (mut low, mut high) = (1, 2);
         let mut best = loop {
-            match spread(high) {
-                Some(parameters) => break parameters,
-                None if high >= MOST_POINTS => return None,
-                None => (low, high) = (high, (2 * high).min(MOST_POINTS)),
+            let (parameters, deviation) = spread(high);
+            if deviation <= tolerance {
+                break parameters;
             }
+            let needed = high as f64 * (deviation / tolerance).sqrt();
+            let is_settled = high >= SETTLED * curve.pieces();
+            if high >= MOST_POINTS || (is_settled && needed > FAR * MOST_POINTS as f64) {
+                return None;
+            }
+            (low, high) = (high, (2 * high).min(MOST_POINTS));
         };
         while high - low > 1 {
             let middle = low.midpoint(high);
-            match spread(middle) {
-                Some(parameters) => (best, high) = (parameters, middle),
-                None => low = middle,
+            let (parameters, deviation) = spread(middle);
+            match deviation <= tolerance {
+                true => (best, high) = (parameters, middle),
+                false => low = middle,
             }
         }
         Some(best)
