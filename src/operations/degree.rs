@@ -42,7 +42,7 @@ const MANY: usize = 1000;
 const MOST_FOR_FEATURES: usize = 2000;
 
 /// A curve that moves by more than this share of its size without a tolerance is told.
-const FAR: f64 = 0.005;
+const FAR: f64 = 0.001;
 
 /// The factor by which segments grow where features are not kept.
 const GROWTH: f64 = 1.3;
