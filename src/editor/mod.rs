@@ -303,10 +303,7 @@ impl Editor {
         let warnings = sharp_matches(&matched, [&before, self.document()]);
         Ok(match warnings.is_empty() {
             true => Note::told(told),
-            false => Note {
-                warns: true,
-                ..Note::done(with_lines(warnings, &told))
-            },
+            false => Note::done(with_lines(warnings, &told)).warning(),
         })
     }
 

@@ -49,6 +49,14 @@ impl Note {
         }
     }
 
+    /// The same note, as a warning.
+    pub(in crate::editor) fn warning(self) -> Self {
+        Self {
+            warns: true,
+            ..self
+        }
+    }
+
     /// The same note, with the offer to choose anew what came in, if there is something to choose from.
     pub(in crate::editor) fn offering_choice(self, offers_choice: bool) -> Self {
         Self {

@@ -273,8 +273,7 @@ fn last_step_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
 }
 
 /// Why the steps do not do what is required.
-const BENDS: &str =
-    "Steps 5 and 6 bend nothing: “Both ends at once” meets curvatures, of one end too.";
+const BENDS: &str = "“Both ends at once” meets curvatures, also of one end; steps 5 and 6 do not.";
 
 /// Whether the target requires more than the steps do: they move and turn.
 fn bends(report: &EndFitReport) -> bool {

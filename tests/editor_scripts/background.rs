@@ -149,3 +149,48 @@ fn apply_during_a_run_waits_and_says_so_and_can_be_cancelled() {
     assert_eq!(script.steps(), 1);
     assert_eq!(script.polygon().degree(), 6);
 }
+
+#[test]
+fn a_result_that_warns_is_shown_before_it_is_applied() {
+    let line = |name: &str, from: (f64, f64), to: (f64, f64)| {
+        let at = |step: u8| {
+            let share = f64::from(step) / 7.0;
+            (
+                from.0 + share * (to.0 - from.0),
+                from.1 + share * (to.1 - from.1),
+            )
+        };
+        let points: Vec<(f64, f64)> = (0..8).map(at).collect();
+        Curve::new(name, FloatPolygon::planar(3, &points).expect("a polygon"))
+    };
+    let curves = [
+        line("a", (0.0, 0.0), (20.0, 0.0)),
+        line("b", (50.0, 1.0), (70.0, 5.0)),
+    ];
+    let mut script = Script {
+        editor: Editor::with_document(Document::from_curves(curves)),
+    };
+    let woken = prove_in_background(&mut script, Duration::ZERO);
+    script.try_out("join").expect("an operation");
+    // The chain moves the second curve by more than its length.
+    script.set("method", Value::Choice(3)).expect("a method");
+    let operating = &mut script.editor.operating();
+    operating.apply().expect("nothing is refused");
+    let is_pending = |editor: &Editor| {
+        let operation = editor.operation();
+        operation.is_some_and(OperationInProgress::is_pending)
+    };
+    while is_pending(&script.editor) {
+        woken.recv_timeout(LONG).expect("the frame is woken");
+        script.editor.begin_frame();
+    }
+    assert_eq!(script.steps(), 0);
+    assert!(script.editor.previewed_operation().is_some());
+    let message = script.editor.message().expect("a message");
+    assert!(
+        message.warns && message.text.starts_with("Not applied yet"),
+        "{message:?}"
+    );
+    script.editor.operating().apply().expect("it is seen now");
+    assert_eq!(script.steps(), 1);
+}

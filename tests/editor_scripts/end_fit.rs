@@ -1,6 +1,6 @@
 //! The end-fit tool.
 
-use batten::editor::{Command, EndFitAction, Input, Layer, ToolKind};
+use batten::editor::{Command, EndFitAction, Input, Key, Layer, ToolKind};
 use batten::geometry::End;
 use batten::geometry::end_correction::EndOverlap;
 use glam::{DVec2, DVec3};
@@ -261,4 +261,41 @@ fn the_panel_calls_off_a_drag_instead_of_keeping_half_of_it() {
     script.release(at + 60.0);
     assert_eq!(script.polygon(), before);
     assert_eq!(script.steps(), 1);
+}
+
+#[test]
+fn a_joint_correction_that_warns_is_shown_before_it_is_applied() {
+    for applies in [true, false] {
+        let mut script = Script::example("s-curve");
+        script.tool(ToolKind::EndFit);
+        script.end_fit_action(EndFitAction::Choose(End::Finish));
+        let jet = script.polygon().end_jet(End::Finish);
+        let point = jet.point + DVec3::new(0.3, -0.2, 0.0);
+        script.end_fit_action(EndFitAction::SetPoint(point));
+        // Turned back the curve makes a hook.
+        script.end_fit_action(EndFitAction::SetDirection(Some(-jet.first)));
+        let (before, steps) = (script.polygon(), script.steps());
+        let note = script.editor.end_fit_action(EndFitAction::BothAtOnce);
+        let note = note.expect("a preview");
+        assert!(
+            note.warns && note.text.starts_with("Not applied yet"),
+            "{note:?}"
+        );
+        assert_eq!(script.steps(), steps);
+        let previewed = script.editor.previewed_operation().expect("a preview");
+        assert!(!previewed.report().expect("a report").warnings.is_empty());
+        if applies {
+            script.editor.operating().apply().expect("it is seen now");
+            assert_eq!(script.steps(), steps + 1);
+            let report = script.end_fit().expect("figures");
+            assert!(report.within, "{report:?}");
+            assert!(matches!(report.outcome, Some(Ok(note)) if note.warns));
+            script.command(Command::Undo);
+        } else {
+            script.key(Key::Escape);
+            assert!(script.editor.previewed_operation().is_none());
+            assert_eq!(script.steps(), steps);
+        }
+        assert_eq!(script.polygon(), before);
+    }
 }

@@ -150,8 +150,8 @@ fn the_second_curve_is_the_nearest_until_another_one_is_clicked_or_selected() {
     let of_third = polygon(third);
     let before = script.editor.document().clone();
     let second = |script: &Script| {
-        let operation = script.editor.previewed_operation().expect("an operation");
-        operation.seconds().1
+        let operation = script.editor.previewed_operation();
+        operation.and_then(|operation| operation.seconds().1)
     };
     script.try_out("join").expect("an operation");
     assert_eq!(second(&script), Some(other), "the nearest");

@@ -269,9 +269,7 @@ impl Editor {
                     let analyses = &self.view.analyses;
                     self.hand.commit_kept(&mut self.workspace, analyses);
                     if let Some(warning) = sharp_drag([&before, self.workspace.document()]) {
-                        let warns = true;
-                        let note = Note::done(warning);
-                        self.message = Message::of(&Ok(Note { warns, ..note }));
+                        self.message = Message::of(&Ok(Note::done(warning).warning()));
                     }
                 }
                 Effect::Abort => {

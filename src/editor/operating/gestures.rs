@@ -24,10 +24,9 @@ impl Operating<'_> {
             return false;
         };
         if let Gesture::Click(at) = gesture
-            && let (others, Some(second)) = previewed.seconds()
+            && let (_, Some(second)) = previewed.seconds()
             && let Some(hit) = self.context().hits.curve(at)
-            && hit.curve != second
-            && others.iter().any(|(id, _)| *id == hit.curve)
+            && ![Some(second), previewed.curve()].contains(&Some(hit.curve))
         {
             self.choose_second(hit.curve);
             return true;

@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::end_fit_step::EndFitStep;
 use super::fitted_points::FittedPoints;
 use crate::document::{Curve, CurveId, Document, Edit, quoted};
+use crate::editor::hand::end_fit::EndFitAction;
 use crate::editor::selection::Selection;
 use crate::editor::view::{Framing, Mark, Viewport};
 use crate::editor::workspace::PreviewId;
@@ -139,6 +140,16 @@ impl OperationInProgress {
         self.pending && self.applies
     }
 
+    /// Whether the run has warnings that nobody could see yet. The best of a search was seen before, and the steps of the end
+    /// fit lead to a result only together.
+    pub(super) fn is_unseen(&self) -> bool {
+        let is_step = |step: &EndFitStep| step.action != EndFitAction::BothAtOnce;
+        !self.is_applied()
+            && !self.end_fit.as_ref().is_some_and(is_step)
+            && !self.operation.can_be_stopped()
+            && self.finished().is_some_and(Run::warns)
+    }
+
     /// Whether the run can be stopped with the best found so far.
     pub fn can_be_stopped(&self) -> bool {
         self.pending && !self.stops && self.operation.can_be_stopped()
@@ -195,16 +206,18 @@ impl OperationInProgress {
             || active.is_some_and(|active| self.made_curves(now).contains(&active))
     }
 
-    /// The curves that can be the second one, with their names, and which one is; none where the operation takes no
+    /// The curves that can be the second one, neither locked nor hidden, with their names, and which one is; none where the operation takes no
     /// second curve.
     pub fn seconds(&self) -> (Vec<(CurveId, String)>, Option<CurveId>) {
         if self.operation.inputs != Inputs::Two {
             return (Vec::new(), None);
         }
-        let others = self.input.document().curves();
-        let others = others.filter(|(id, _)| Some(*id) != self.curve());
-        let others = others.map(|(id, curve)| (id, curve.name.clone()));
         let second = self.input.curves().get(1).map(|(id, _)| *id);
+        let others = self.input.document().curves().filter(|(id, curve)| {
+            let can_be = curve.check_editable().is_ok() || Some(*id) == second;
+            can_be && Some(*id) != self.curve()
+        });
+        let others = others.map(|(id, curve)| (id, curve.name.clone()));
         (others.collect(), second)
     }
 

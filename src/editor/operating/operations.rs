@@ -2,6 +2,7 @@
 
 use crate::document::{CurveId, Document};
 use crate::editor::hand::Hand;
+use crate::editor::hand::end_fit::EndFitAction;
 use crate::editor::jobs::Client;
 use crate::editor::jobs::patience::Patience;
 use crate::editor::reply::{Message, Note, Refusal, Reply};
@@ -108,6 +109,11 @@ impl Operating<'_> {
         end_fit: Option<EndFitStep>,
     ) -> Reply {
         let begun = self.preview(operation, input, given, end_fit);
+        let is_joint = end_fit.is_some_and(|step| step.action == EndFitAction::BothAtOnce);
+        if begun.is_ok() && is_joint && self.previewed().is_some_and(OperationInProgress::is_unseen)
+        {
+            return Ok(held_back());
+        }
         let reply = begun.and_then(|()| self.settle());
         if reply.is_err() {
             self.leave();
@@ -130,7 +136,7 @@ impl Operating<'_> {
             true => Ok(Note::told("Applies when ready; Esc cancels")),
             false => settled,
         };
-        *self.message = Message::of(&reply);
+        self.tell(&reply);
         reply
     }
 
@@ -458,11 +464,9 @@ impl Operating<'_> {
         }
         current.run = Some(run);
         current.pending = false;
-        let warns = current.finished().is_some_and(Run::warns);
-        // Of a search the best so far was seen, and its warnings may be.
-        let is_seen = current.end_fit.is_some() || current.operation.can_be_stopped();
-        let waits = current.applies && !is_seen && !current.is_applied();
-        let applies = current.applies && !(waits && warns);
+        let holds_back = current.applies && current.is_unseen();
+        current.applies &= !holds_back;
+        let applies = current.applies;
         match current.stage {
             Stage::Previewed(_) => {
                 self.show_run();
@@ -480,19 +484,26 @@ impl Operating<'_> {
         self.measure_points();
         if applies {
             let reply = self.settle();
-            let current = self.operations.operation.as_mut();
-            match current.and_then(|current| current.end_fit.take()) {
-                Some(step) => self.keep_end_fit_action(step, &reply),
-                None => *self.message = Message::of(&reply),
-            }
+            self.tell(&reply);
         }
-        if waits && warns {
-            // Nobody could see it before.
-            let note = Note::told("Not applied yet: look at the warning, Enter applies");
-            *self.message = Message::of(&Ok(Note { warns, ..note }));
+        if holds_back {
+            *self.message = Message::of(&Ok(held_back()));
         }
         if succeeds {
             self.request_features();
+        }
+    }
+
+    /// Show the reply of what was applied where it was asked for: in the end-fit panel, or as a message.
+    fn tell(&mut self, reply: &Reply) {
+        let current = self.operations.operation.as_mut();
+        let is_done = |current: &&mut OperationInProgress| !current.is_waiting_to_apply();
+        match current
+            .filter(is_done)
+            .and_then(|current| current.end_fit.take())
+        {
+            Some(step) => self.keep_end_fit_action(step, reply),
+            None => *self.message = Message::of(reply),
         }
     }
 
@@ -677,6 +688,11 @@ impl Operating<'_> {
     fn document_changed(&mut self) {
         self.hand.selection.retain_valid(self.workspace.document());
     }
+}
+
+/// What is told of a result that waits because of its warnings.
+fn held_back() -> Note {
+    Note::told("Not applied yet: look at the warning, Enter applies").warning()
 }
 
 #[cfg(test)]
