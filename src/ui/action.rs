@@ -283,13 +283,19 @@ impl Action {
     /// The tooltip, with the reason if the action is not available.
     pub fn tooltip_now(self, editor: &Editor) -> String {
         let tooltip = self.tooltip();
-        match self {
-            Self::Command(Command::Operation(operation)) => match editor.input_of(operation) {
-                Ok(_) => tooltip,
-                Err(reason) => format!("{tooltip}\n\nUnavailable: {reason}"),
-            },
-            _ => tooltip,
+        match self.refusal(editor) {
+            None => tooltip,
+            Some(refusal) => format!("{tooltip}\n\n{refusal}"),
         }
+    }
+
+    /// Why the action is not available, if that is known.
+    pub fn refusal(self, editor: &Editor) -> Option<String> {
+        let Self::Command(Command::Operation(operation)) = self else {
+            return None;
+        };
+        let reason = editor.input_of(operation).err()?;
+        Some(format!("Unavailable: {reason}"))
     }
 
     /// How far the action would move the active curve, as far as that is known: "exact" or "± 0.28".

@@ -88,7 +88,8 @@ impl Palette {
         let by_key = found.get(self.chosen).copied().filter(|_| is_entered);
         let by_hand = self.list_ui(ui, editor, &found, steps != 0);
         let chosen = found.get(self.chosen);
-        help_ui(ui, chosen.map(|action| action.tooltip_now(editor)));
+        let help = |action: &Action| action.refusal(editor).unwrap_or_else(|| action.tooltip());
+        help_ui(ui, &chosen.map(help).unwrap_or_default());
         by_key
             .or(by_hand)
             .filter(|action| action.is_enabled(editor))
@@ -150,15 +151,12 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> Respons
     response.on_hover_text(action.tooltip_now(editor))
 }
 
-/// What the chosen command does, or why it is not available, in as much room as the longest text takes.
-fn help_ui(ui: &mut Ui, text: Option<String>) {
+/// What the chosen command does, or why it is not available, in room for two lines.
+fn help_ui(ui: &mut Ui, text: &str) {
     let size = vec2(ui.available_width(), HELP);
     ui.allocate_ui(size, |ui| {
         ui.set_min_size(size);
-        let text = text.unwrap_or_default();
-        // The reason alone: it is what the user does next.
-        let reason = text.split_once("\n\n").map_or(&*text, |(_, reason)| reason);
-        widgets::note(ui, reason);
+        widgets::note(ui, text);
     });
 }
 
