@@ -547,7 +547,8 @@ pub fn dialog_frame(style: &egui::Style) -> egui::Frame {
     egui::Frame::window(style).inner_margin(4.0 * STEP)
 }
 
-/// Show a dialog that stops everything else; returns the answer. Esc and a press beside it answer `closed`.
+/// Show a dialog that stops everything else; returns the answer. Esc answers `closed`; a press beside it does nothing, so
+/// that no choice is lost by a slip.
 pub fn modal<R>(
     context: &Context,
     name: &str,
@@ -559,7 +560,9 @@ pub fn modal<R>(
         ui.spacing_mut().item_spacing.y = 2.0 * STEP;
         contents(ui)
     });
-    let closes = modal.should_close();
+    let is_in_front = modal.is_top_modal && !modal.any_popup_open;
+    let closes =
+        is_in_front && context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
     modal.inner.or(closes.then_some(closed))
 }
 
