@@ -150,8 +150,11 @@ pub fn monotone_ui(ui: &mut Ui, in_progress: &OperationInProgress) {
     };
     let verdicts = |counts: &[FeatureCounts]| joined(counts, |c| verdict(c.monotone).to_owned());
     let [before, after] = [&features.before, &features.after].map(|counts| verdicts(counts));
-    let text = match features.before.is_empty() || before == after {
-        true => after.clone(),
+    let both = features.before.iter().chain(&features.after);
+    let mut both = both.map(|counts| verdict(counts.monotone));
+    let first = both.next();
+    let text = match features.before.is_empty() || both.all(|it| Some(it) == first) {
+        true => first.unwrap_or("–").to_owned(),
         false => format!("{before} · now {after}"),
     };
     ui.scope(|ui| {
