@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::document::{Curve, CurveId, Edit, EditError, ParameterSpan, Renumbering};
-use crate::geometry::{FloatPolygon, PolygonError};
+use crate::geometry::{End, FloatPolygon, PolygonError};
 
 /// The edit that inserts a vertex into a curve's polygon, so that it gets number `index`.
 ///
@@ -17,6 +17,26 @@ pub fn insertion(
 ) -> Result<Edit, PolygonError> {
     let polygon = inserted(&curve.polygon, index, vertex)?;
     let number = |old| Some(if old < index { old } else { old + 1 });
+    Ok(Edit::Renumber {
+        curve: id,
+        renumbering: Renumbering::of_vertices(curve, &polygon, number),
+        polygon,
+    })
+}
+
+/// The edit that lets a curve go on from an end to a point: see [`FloatPolygon::continued`].
+///
+/// # Errors
+/// As [`FloatPolygon::continued`].
+pub fn continuation(id: CurveId, curve: &Curve, end: End, to: DVec3) -> Result<Edit, PolygonError> {
+    let old = &curve.polygon;
+    let polygon = old.continued(end, to)?;
+    let tail = old.tail(end);
+    let is_before = |vertex| match end {
+        End::Start => tail.contains(&vertex),
+        End::Finish => !tail.contains(&vertex),
+    };
+    let number = |vertex| Some(vertex + usize::from(!is_before(vertex)));
     Ok(Edit::Renumber {
         curve: id,
         renumbering: Renumbering::of_vertices(curve, &polygon, number),

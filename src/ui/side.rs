@@ -105,8 +105,9 @@ impl Side {
 
     /// Take what is typed on the canvas for the tool in the hand, whose panel comes to the front then.
     pub fn take_keys(&mut self, context: &Context, editor: &Editor, canvas: &Canvas) {
-        if self.tool.take_keys(context, editor, canvas) {
-            self.task = task(editor);
+        let task = task(editor);
+        if matches!(task, Some(Task::Tool(_))) && self.tool.take_keys(context, editor, canvas) {
+            self.task = task;
             self.is_task_in_front = true;
         }
     }
@@ -167,6 +168,9 @@ impl Side {
                 ui.strong("Features");
                 feature_list_ui(ui, editor);
             });
+        }
+        if !matches!(task, Some(Task::Tool(_))) {
+            self.tool.hide(editor);
         }
         let body = CentralPanel::default().frame(pad);
         body.show(ui, |ui| {

@@ -87,6 +87,13 @@ impl ToolPanel {
         }
     }
 
+    /// Drop what is typed and shown, while something else stands in the panel's place.
+    pub fn hide(&mut self, editor: &mut Editor) {
+        if std::mem::take(&mut self.is_typed) {
+            editor.type_entry("");
+        }
+    }
+
     /// The field with a button beside it.
     fn applied_ui(&mut self, ui: &mut Ui, editor: &mut Editor, entry: Entry, name: &str) {
         let is_ready = editor.hand().pivot(&editor.context()).is_some();
@@ -269,17 +276,27 @@ fn figure_ui(
     row.inner
 }
 
-/// What the draw tool makes of clicks.
+/// What the tools that draw make of clicks.
 fn draw_way_ui(ui: &mut Ui, editor: &mut Editor) {
-    if editor.hand().tool() != ToolKind::Draw {
-        return;
-    }
+    let tool = editor.hand().tool();
+    let is_offered = |way: &DrawWay| match tool {
+        ToolKind::Draw => true,
+        ToolKind::AddVertex => *way != DrawWay::ThroughPoints,
+        _ => false,
+    };
+    let ways: Vec<DrawWay> = DrawWay::ALL.into_iter().filter(is_offered).collect();
     let mut settings = editor.hand().draw_settings();
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
-        for way in DrawWay::ALL {
-            let response = ui.selectable_value(&mut settings.way, way, way.label());
-            response.on_hover_text(way.tooltip());
+        for way in ways {
+            let is_chosen = match tool {
+                ToolKind::AddVertex => way.ends_on_clicks() == settings.way.ends_on_clicks(),
+                _ => way == settings.way,
+            };
+            let response = ui.selectable_label(is_chosen, way.label());
+            if response.on_hover_text(way.tooltip()).clicked() && !is_chosen {
+                settings.way = way;
+            }
         }
     });
     if settings != editor.hand().draw_settings() {

@@ -214,6 +214,7 @@ fn vertices_are_added_and_inserted_where_is_typed() {
         let mut script = Script::example(name);
         let before = script.polygon();
         let count = before.vertices().len();
+        script.draw_by(DrawWay::Vertices);
         script.tool(ToolKind::AddVertex);
         enter(&mut script, "@3,4");
         let added = script.polygon();
@@ -260,6 +261,7 @@ fn a_point_typed_in_the_middle_of_a_drag_ends_it() {
     let mut script = Script::example("s-curve");
     let before = script.polygon();
     let count = before.vertices().len();
+    script.draw_by(DrawWay::Vertices);
     script.tool(ToolKind::AddVertex);
     let at = script.at_vertex(count - 1) + DVec2::new(30.0, 20.0);
     script.press(at);

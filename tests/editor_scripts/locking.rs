@@ -2,7 +2,7 @@
 
 use batten::document::CurveId;
 use batten::editor::{
-    Command, EndFitAction, Input, Key, Modifiers, ToolKind, Transformation, told,
+    Command, DrawWay, EndFitAction, Input, Key, Modifiers, ToolKind, Transformation, told,
 };
 use batten::geometry::FloatPolygon;
 use batten::operations::Value;
@@ -196,6 +196,7 @@ fn locks_keep_to_their_vertices_where_others_come_and_go() {
     script.command(Command::Tool(ToolKind::Insert));
     script.click(0.5 * (script.at_vertex(0) + script.at_vertex(1)));
     assert_eq!(locks(&script), [3, 6]);
+    script.draw_by(DrawWay::Vertices);
     script.command(Command::Tool(ToolKind::AddVertex));
     script.click(script.at_vertex(0) + DVec2::new(-30.0, 5.0));
     assert_eq!(locks(&script), [4, 7]);

@@ -1,8 +1,10 @@
 //! Adding, inserting, deleting, drawing and measuring.
 
-use batten::editor::{Command, DrawWay, Key, ToolKind};
+use batten::document::{Curve, Document};
+use batten::editor::{Command, DrawWay, Editor, Key, ToolKind};
+use batten::geometry::{End, FloatPolygon};
 use batten::operations::Value;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::script::Script;
 
@@ -10,6 +12,7 @@ use super::script::Script;
 fn the_add_tool_adds_at_the_nearer_end() {
     for (end, index) in [(0, 0), (9, 10)] {
         let mut script = Script::example("arc");
+        script.draw_by(DrawWay::Vertices);
         script.tool(ToolKind::AddVertex);
         let place = script.at_vertex(end) + DVec2::new(5.0, 20.0);
         script.click(place);
@@ -19,6 +22,100 @@ fn the_add_tool_adds_at_the_nearer_end() {
         assert!(polygon.vertex(index).truncate().distance(expected) < 1e-9);
         assert_eq!(script.editor.workspace().history().undo_steps(), 1);
     }
+}
+
+/// A place ahead of a curve's end, and the end that is given.
+fn ahead(script: &Script, end: End) -> (DVec2, DVec3) {
+    let jet = script.polygon().end_jet(end);
+    let outwards = match end {
+        End::Start => -1.0,
+        End::Finish => 1.0,
+    };
+    let way = outwards * jet.tangent().expect("a direction");
+    let to = jet.point + 0.3 * script.polygon().size() * way;
+    let viewport = script.editor.view().viewport();
+    (viewport.to_screen(viewport.flatten(to)), to)
+}
+
+/// The largest distance between vertices of the same number.
+fn farthest(a: &FloatPolygon, b: &FloatPolygon) -> f64 {
+    assert_eq!(a.vertices().len(), b.vertices().len());
+    let pairs = a.vertices().iter().zip(b.vertices());
+    pairs.fold(0.0_f64, |most, (a, b)| most.max(a.distance(*b)))
+}
+
+#[test]
+fn the_add_tool_goes_on_to_the_click() {
+    for name in ["arc", "s-curve", "hull", "figure2"] {
+        for end in End::BOTH {
+            let mut script = Script::example(name);
+            let before = script.polygon();
+            script.tool(ToolKind::AddVertex);
+            let (place, to) = ahead(&script, end);
+            script.move_to(place);
+            script.editor.refresh();
+            let shown = &script.editor.view().scene().proposal;
+            assert!(!shown.curve.is_empty(), "{name}: no preview");
+            script.click(place);
+            let after = script.polygon();
+            let expected = before.continued(end, to).expect("a polygon");
+            let off = farthest(&after, &expected);
+            assert!(
+                off <= 1e-9 * before.size(),
+                "{name}, {}: {off:e}",
+                end.name()
+            );
+            assert_eq!(script.steps(), 1);
+            assert!(script.editor.message().is_none_or(|it| !it.warns), "{name}");
+            script.command(Command::Undo);
+            assert_eq!(script.polygon(), before);
+        }
+    }
+}
+
+#[test]
+fn adding_to_a_drawn_curve_is_drawing_on() {
+    let clicks: Vec<(f64, f64)> = (0..9)
+        .map(|step| (f64::from(step), (0.5 * f64::from(step)).sin()))
+        .collect();
+    let points = |count: usize| clicks[..count].iter().map(|(x, y)| DVec3::new(*x, *y, 0.0));
+    let drawn = |count: usize| {
+        let points: Vec<DVec3> = points(count).collect();
+        FloatPolygon::through_ends(5, &points).expect("a polygon")
+    };
+    let document = Document::from_curves([Curve::new("a", drawn(8))]);
+    let mut script = Script {
+        editor: Editor::with_document(document),
+    };
+    script.tool(ToolKind::AddVertex);
+    let (x, y) = clicks[8];
+    script.editor.enter(&format!("{x},{y}")).expect("a point");
+    let (added, expected) = (script.polygon(), drawn(9));
+    let off = farthest(&added, &expected);
+    assert!(off <= 1e-9 * expected.size(), "{off:e}");
+}
+
+#[test]
+fn adding_leaves_locked_vertices_and_turns_to_vertices_by_t() {
+    let mut script = Script::example("s-curve");
+    let before = script.polygon();
+    let last = before.vertices().len() - 1;
+    script.click(script.at_vertex(last));
+    script.command(Command::ToggleVerticesLocked);
+    let locked = script.steps();
+    script.tool(ToolKind::AddVertex);
+    let (place, _) = ahead(&script, End::Finish);
+    script.click(place);
+    assert_eq!(script.polygon(), before);
+    assert_eq!(script.steps(), locked);
+    let message = &script.editor.message().expect("a reason").text;
+    assert!(message.contains("locked"), "{message}");
+    script.key(Key::Character('t'));
+    script.click(place);
+    assert_eq!(script.polygon().vertices().len(), last + 2);
+    assert_eq!(script.polygon().vertices()[..=last], *before.vertices());
+    script.key(Key::Character('t'));
+    assert_eq!(script.editor.hand().draw_settings().way, DrawWay::OnClicks);
 }
 
 #[test]

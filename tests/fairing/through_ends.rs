@@ -208,3 +208,74 @@ fn one_point_is_refused() {
     assert!(FloatPolygon::through_ends(0, &[DVec3::ONE, DVec3::ZERO]).is_err());
     assert!(FloatPolygon::through_ends(MAX_DEGREE + 1, &[DVec3::ONE, DVec3::ZERO]).is_err());
 }
+
+/// A polygon as a hand sets it, with weights of up to twice each other or without.
+fn polygon(random: &mut Random, degree: usize, count: usize, planar: bool) -> FloatPolygon {
+    let vertices = walk(random, count, planar);
+    let weights = (0..count).map(|_| random.between(1.0, 2.0));
+    let weights = (degree % 3 == 0).then(|| weights.collect());
+    FloatPolygon::new(degree, vertices, weights, false).expect("a polygon")
+}
+
+#[test]
+fn a_curve_goes_on_to_a_point_from_either_end() {
+    let mut random = Random(9);
+    for degree in 1..=12 {
+        for count in [degree + 1, degree + 2, 2 * degree + 3] {
+            for planar in [true, false] {
+                let before = polygon(&mut random, degree, count, planar);
+                let to = before.point(0.3) + random.vector(2.0, !planar);
+                for end in End::BOTH {
+                    let after = before.continued(end, to).expect("a polygon");
+                    let told = format!("degree {degree}, {count}, {}", end.name());
+                    let off = after.end_jet(end).point.distance(to);
+                    assert!(off <= MET * after.size(), "{told}: {off:e}");
+                    // The rest stays to the bit, and the end is a vertex.
+                    let (own, tail) = (before.vertices(), before.tail(end));
+                    let from = before.end_jet(end).point;
+                    let (kept, point, rest) = match end {
+                        End::Start => {
+                            let (new, rest) = after.vertices().split_at(tail.end + 1);
+                            (rest, new[tail.end], &own[tail.end..])
+                        }
+                        End::Finish => {
+                            let (rest, new) = after.vertices().split_at(tail.start);
+                            (rest, new[0], &own[..tail.start])
+                        }
+                    };
+                    assert_eq!(kept, rest, "{told}");
+                    assert_eq!(point, from, "{told}");
+                }
+                // The same from the other end of the reversed curve.
+                let start = before.continued(End::Start, to).expect("a polygon");
+                let finish = before.reversed().continued(End::Finish, to).expect("one");
+                let pairs = start.vertices().iter().zip(finish.vertices().iter().rev());
+                let off = pairs.fold(0.0_f64, |most, (a, b)| most.max(a.distance(*b)));
+                assert!(off <= 1e-9 * start.size(), "degree {degree}: {off:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_curve_that_was_made_of_points_goes_on_as_one_of_a_point_more() {
+    let mut random = Random(10);
+    for degree in 1..=9 {
+        let points = walk(&mut random, 24, degree % 2 == 0);
+        let [before, whole] = [&points[..23], &points[..]].map(|points| check(degree, points));
+        let after = before
+            .continued(End::Finish, points[23])
+            .expect("a polygon");
+        let pairs = after.vertices().iter().zip(whole.vertices());
+        let off = pairs.fold(0.0_f64, |most, (a, b)| most.max(a.distance(*b)));
+        assert!(off <= 1e-10 * whole.size(), "degree {degree}: {off:e}");
+    }
+}
+
+#[test]
+fn a_periodic_curve_does_not_go_on() {
+    let points = walk(&mut Random(11), 7, true);
+    let polygon = FloatPolygon::new(3, points, None, true).expect("a polygon");
+    let refused = polygon.continued(End::Finish, DVec3::ZERO);
+    assert!(matches!(refused, Err(PolygonError::PeriodicCurve { .. })));
+}

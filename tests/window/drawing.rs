@@ -211,3 +211,20 @@ fn the_degree_so_far_and_the_unit_are_told_and_an_empty_enter_leaves() {
     press(&mut window, Modifiers::NONE, Key::Enter);
     assert_eq!(window.state().editor().hand().tool(), ToolKind::Select);
 }
+
+#[test]
+fn what_is_typed_is_dropped_where_another_tab_hides_its_field() {
+    let mut window = open_window();
+    let before = curve(&window).polygon;
+    type_keys(&mut window, "r30");
+    assert_ne!(curve(&window).polygon, before);
+    click(&mut window, "Inspector");
+    window.run();
+    assert_eq!(curve(&window).polygon, before);
+    // The next digits bring the field back.
+    click(&mut window, "Canvas");
+    type_keys(&mut window, "90");
+    window.get_by_label("typed angle");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(curve(&window).polygon, before);
+}

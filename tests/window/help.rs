@@ -24,7 +24,7 @@ fn f1_over_a_panel_opens_its_page() {
         ("Curvature", "level 1 is the curvature"),
         ("Features", "A feature is an interval"),
         ("Inspector", "A curve is a B-spline"),
-        ("Measure", "continue the polygon at an end"),
+        ("Measure", "click where the curve goes on to"),
     ] {
         let mut window = open_window();
         press_f1_over(&mut window, label);

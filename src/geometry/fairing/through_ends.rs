@@ -9,10 +9,13 @@
 //! without the third differences where only two points are given: then the polygon is straight and
 //! evenly divided. Third differences alone would let the ends hook, second ones would flatten them.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::geometry::banded::{BandedQr, BandedRow, difference_stencil};
 use crate::geometry::basis::uniform_basis_derivative;
+use crate::geometry::end::End;
 use crate::geometry::error::{MAX_DEGREE, PolygonError};
 use crate::geometry::float_polygon::FloatPolygon;
 
@@ -40,49 +43,102 @@ impl FloatPolygon {
             }
             _ => return Self::new(degree, points.to_vec(), None, false),
         };
-        let layout = Layout::new(degree, between.len());
-        let mut vertices = vec![first; layout.added];
+        let tail = tail(degree);
+        let layout = Layout::new(degree, [tail, tail], between.len());
+        let mut vertices = vec![first; tail];
         vertices.extend_from_slice(between);
         vertices.resize(layout.count(), last);
         layout.place(&mut vertices, [first, last]);
         Self::new(degree, vertices, None, false)
     }
+
+    /// The ⌊n/2⌋ + 1 vertices that stand for an end of an open curve.
+    pub fn tail(&self, end: End) -> Range<usize> {
+        let (count, tail) = (self.vertices().len(), tail(self.degree()));
+        match end {
+            End::Start => 0..tail,
+            End::Finish => count - tail..count,
+        }
+    }
+
+    /// Let an open curve go on from one of its ends to a point, with one vertex more. The end point becomes a vertex; after
+    /// it come ⌊n/2⌋ + 1 vertices instead of those there were, placed by the formula above. Weights stay; the new vertex
+    /// has the geometric mean of its neighbours'.
+    ///
+    /// # Errors
+    /// [`PolygonError::PeriodicCurve`] of a periodic curve; otherwise as [`FloatPolygon::new`].
+    pub fn continued(&self, end: End, to: DVec3) -> Result<Self, PolygonError> {
+        self.check_open("continued")?;
+        let from = self.end_jet(end).point;
+        let Range { start, end: beyond } = self.tail(end);
+        let tail = beyond - start;
+        let (at, added, moved) = match end {
+            End::Start => (beyond, [tail, 0], start..beyond),
+            End::Finish => (start, [0, tail], start + 1..beyond + 1),
+        };
+        let mut vertices = self.vertices().to_vec();
+        vertices.insert(at, from);
+        vertices[moved].fill(to);
+        let weights = self.weights().map(|old| {
+            let mut weights = old.to_vec();
+            weights.insert(at, (old[at - 1] * old[at]).sqrt());
+            weights
+        });
+        let mut layout = Layout::new(self.degree(), added, vertices.len() - tail);
+        layout.weights.clone_from(&weights);
+        layout.place(&mut vertices, [to, to]);
+        Self::new(self.degree(), vertices, weights, false)
+    }
+}
+
+/// The vertices that come in place of an end point.
+fn tail(degree: usize) -> usize {
+    degree / 2 + 1
 }
 
 /// The added vertices and their conditions.
 struct Layout {
     degree: usize,
-    /// Vertices added at each end.
-    added: usize,
+    /// Vertices added at each end; an end without any stays as it is.
+    added: [usize; 2],
     /// Vertices between them.
     between: usize,
     /// The basis of degree n at an end knot: n numbers, the same from both sides.
     basis: Vec<f64>,
+    /// The weights of all vertices of a rational curve.
+    weights: Option<Vec<f64>>,
 }
 
 impl Layout {
-    fn new(degree: usize, between: usize) -> Self {
+    fn new(degree: usize, added: [usize; 2], between: usize) -> Self {
         let mut basis: Vec<f64> = uniform_basis_derivative(degree, 0, 0.0);
         basis.truncate(degree);
         Self {
             degree,
-            added: degree / 2 + 1,
+            added,
             between,
             basis,
+            weights: None,
         }
     }
 
     fn count(&self) -> usize {
-        self.between + 2 * self.added
+        self.between + self.columns()
+    }
+
+    /// The number of added vertices.
+    fn columns(&self) -> usize {
+        self.added[0] + self.added[1]
     }
 
     /// The number of an added vertex among the added ones.
     fn column(&self, vertex: usize) -> Option<usize> {
-        if vertex < self.added {
+        let [before, _] = self.added;
+        if vertex < before {
             return Some(vertex);
         }
         let column = vertex.checked_sub(self.between)?;
-        (column >= self.added).then_some(column)
+        (column >= before).then_some(column)
     }
 
     /// Put the added vertices in their places.
@@ -91,7 +147,7 @@ impl Layout {
         let Some(factors) = self.factors(&conditions) else {
             return;
         };
-        let columns = 2 * self.added;
+        let columns = self.columns();
         let held = conditions
             .each_ref()
             .map(|condition| factors.solve(&self.entries(condition, columns)));
@@ -104,8 +160,14 @@ impl Layout {
         for _ in 0..REFINEMENTS {
             let missing = [0, 1].map(|end| ends[end] - combined(&conditions[end], vertices));
             let product = |row: usize, column: usize| -> f64 {
-                let row = self.entries(&conditions[row], columns);
-                row.iter().zip(&held[column]).map(|(a, b)| a * b).sum()
+                let entries = self.entries(&conditions[row], columns);
+                let own = entries.iter().zip(&held[column]);
+                let product: f64 = own.map(|(a, b)| a * b).sum();
+                // An end that stays has no condition, and no part in the other one's.
+                match conditions[row].is_empty() && row == column {
+                    true => 1.0,
+                    false => product,
+                }
             };
             let [a, b, c, d] = [product(0, 0), product(0, 1), product(1, 0), product(1, 1)];
             let determinant = a * d - b * c;
@@ -134,12 +196,19 @@ impl Layout {
         }
     }
 
-    /// The weights of the vertices in the two end points.
+    /// The weights of the vertices in the two end points, none in one that stays.
     fn conditions(&self) -> [Vec<(usize, f64)>; 2] {
         let last = self.count() - self.degree;
-        [0, last].map(|first| {
-            let weights = self.basis.iter().enumerate();
-            weights.map(|(index, b)| (first + index, *b)).collect()
+        let [before, after] = self.added;
+        [(0, before), (last, after)].map(|(first, added)| {
+            if added == 0 {
+                return Vec::new();
+            }
+            let places = (first..).zip(self.basis.iter().copied());
+            match &self.weights {
+                None => places.collect(),
+                Some(weights) => weighted(places.collect(), weights),
+            }
         })
     }
 
@@ -178,8 +247,9 @@ impl Layout {
     /// The factors of all rows. The conditions are among them: that changes nothing where they are
     /// met, and leaves nothing undetermined.
     fn factors(&self, conditions: &[Vec<(usize, f64)>; 2]) -> Option<BandedQr> {
-        let columns = 2 * self.added;
-        let rows = self.differences().into_iter().chain(conditions.clone());
+        let columns = self.columns();
+        let conditions = conditions.iter().filter(|it| !it.is_empty());
+        let rows = self.differences().into_iter().chain(conditions.cloned());
         let rows = rows.map(|row| BandedRow {
             first: 0,
             entries: self.entries(&row, columns),
@@ -195,7 +265,7 @@ impl Layout {
         conditions: &[Vec<(usize, f64)>; 2],
         ends: [DVec3; 2],
     ) -> Vec<DVec3> {
-        let mut gradient = vec![DVec3::ZERO; 2 * self.added];
+        let mut gradient = vec![DVec3::ZERO; self.columns()];
         let differences = self.differences().into_iter().map(|row| (row, DVec3::ZERO));
         let conditions = conditions.iter().cloned().zip(ends);
         for (row, value) in differences.chain(conditions) {
@@ -208,6 +278,20 @@ impl Layout {
         }
         gradient
     }
+}
+
+/// The shares of the vertices of a rational curve: those of their weights too.
+fn weighted(row: Vec<(usize, f64)>, weights: &[f64]) -> Vec<(usize, f64)> {
+    let weight = |vertex: usize| weights.get(vertex).copied().unwrap_or(1.0);
+    let shares = row
+        .into_iter()
+        .map(|(vertex, b)| (vertex, b * weight(vertex)));
+    let shares: Vec<(usize, f64)> = shares.collect();
+    let sum: f64 = shares.iter().map(|(_, share)| share).sum();
+    shares
+        .into_iter()
+        .map(|(vertex, share)| (vertex, share / sum))
+        .collect()
 }
 
 fn combined(row: &[(usize, f64)], vertices: &[DVec3]) -> DVec3 {

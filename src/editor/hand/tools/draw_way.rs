@@ -39,6 +39,11 @@ impl DrawWay {
         }
     }
 
+    /// Whether the curve ends on clicks, not the polygon.
+    pub fn ends_on_clicks(self) -> bool {
+        self != Self::Vertices
+    }
+
     /// The way with a name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|way| way.label() == name)

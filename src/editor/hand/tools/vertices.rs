@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+use super::draw_way::DrawWay;
 use super::tool::{Context, Effect, Entry, Tool, pointer_label};
 use crate::document::{Curve, CurveId};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::hand::typed_point::{EntryError, TypedPoint};
-use crate::editor::polygon_edits::{inserted, insertion, replacement};
+use crate::editor::polygon_edits::{continuation, inserted, insertion, replacement};
 use crate::editor::same_shape::{LastSameShape, SameShape};
 use crate::editor::view::hit::LegHit;
 use crate::editor::view::scene::Mark;
@@ -54,6 +55,8 @@ struct Adding {
     base: DVec3,
     /// The polygon with it that keeps the shape, unless the other vertices stay.
     same: Option<Arc<SameShape>>,
+    /// The end from which the curve goes on to the point, unless it is a vertex of the polygon.
+    end: Option<End>,
     /// Where a drag began of a vertex that keeps the shape, and so was not under the pointer.
     pressed: Option<DVec2>,
 }
@@ -68,16 +71,29 @@ impl Adding {
         };
         curve.check_editable().map_err(|error| error.to_string())?;
         let polygon = &curve.polygon;
-        let count = polygon.vertices().len();
-        let distance =
-            |index: usize, at| context.viewport.flatten(polygon.vertex(index)).distance(at);
+        let goes_on = context.settings.draw.way.ends_on_clicks() && !polygon.is_periodic();
+        let last = polygon.vertices().len() - 1;
+        let [start, finish] = match goes_on {
+            true => [End::Start, End::Finish].map(|end| polygon.end_jet(end).point),
+            false => [0, last].map(|index| polygon.vertex(index)),
+        };
         let is_start = match at {
-            Some(at) => distance(0, at) < distance(count - 1, at),
+            Some(at) => {
+                let distance = |point| context.viewport.flatten(point).distance(at);
+                distance(start) < distance(finish)
+            }
             // Go on where the last one was added.
             None => context.selection.vertices().eq([(id, 0)]),
         };
-        let index = if is_start { 0 } else { count };
-        let like = polygon.vertex(index.saturating_sub(1));
+        let (index, like, end) = match is_start {
+            true => (0, start, End::Start),
+            false => (last + 1, finish, End::Finish),
+        };
+        if goes_on {
+            let tail = polygon.tail(end);
+            let unlocked = curve.check_vertices_unlocked(tail);
+            unlocked.map_err(|error| error.to_string())?;
+        }
         Ok(Self {
             id,
             curve: curve.clone(),
@@ -85,6 +101,7 @@ impl Adding {
             like,
             base: like,
             same: None,
+            end: goes_on.then_some(end),
             pressed: None,
         })
     }
@@ -113,6 +130,7 @@ impl Adding {
             like: like.unwrap_or(from.lerp(*to, hit.share)),
             base: *from,
             same,
+            end: None,
             pressed: None,
         })
     }
@@ -149,11 +167,13 @@ impl Adding {
     }
 
     fn preview(&self, vertex: DVec3) -> Effect {
-        let edit = match &self.same {
-            None => insertion(self.id, &self.curve, self.index, vertex),
-            Some(_) => {
+        let (id, curve) = (self.id, &self.curve);
+        let edit = match (&self.same, self.end) {
+            (None, None) => insertion(id, curve, self.index, vertex),
+            (None, Some(end)) => continuation(id, curve, end, vertex),
+            (Some(_), _) => {
                 let polygon = self.polygon(vertex);
-                polygon.map(|polygon| replacement(self.id, &self.curve, polygon))
+                polygon.map(|polygon| replacement(id, curve, polygon))
             }
         };
         Effect::preview(edit.map(|edit| vec![edit]))
@@ -161,9 +181,11 @@ impl Adding {
 
     /// The polygon with the vertex.
     fn polygon(&self, vertex: DVec3) -> Result<FloatPolygon, PolygonError> {
-        match &self.same {
-            None => inserted(&self.curve.polygon, self.index, vertex),
-            Some(same) => {
+        let polygon = &self.curve.polygon;
+        match (&self.same, self.end) {
+            (None, None) => inserted(polygon, self.index, vertex),
+            (None, Some(end)) => polygon.continued(end, vertex),
+            (Some(same), _) => {
                 let mut polygon = same.polygon.clone();
                 polygon.move_vertices(vec![(self.index, vertex)])?;
                 Ok(polygon)
@@ -259,6 +281,15 @@ impl NewVertexTool {
         }
     }
 
+    /// Let the next click end the curve, or add a vertex of the polygon.
+    fn change_way(&self, context: &Context) -> Effect {
+        let way = match context.settings.draw.way.ends_on_clicks() {
+            true => DrawWay::Vertices,
+            false => DrawWay::OnClicks,
+        };
+        context.set(|settings| settings.draw.way = way)
+    }
+
     /// The effects of beginning a gesture that makes a vertex.
     fn begin(&self, adding: &Adding, vertex: DVec3) -> Vec<Effect> {
         let label = match self.place {
@@ -295,6 +326,9 @@ impl NewVertexTool {
 
 impl Tool for NewVertexTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
+        if gesture == Gesture::Key(Key::Character('t')) && self.place == NewVertex::AtEnd {
+            return vec![self.change_way(context)];
+        }
         let (Gesture::Click(place) | Gesture::DragStart(place)) = gesture else {
             return self.go_on(gesture, context);
         };
@@ -334,10 +368,15 @@ impl Tool for NewVertexTool {
                         } else {
                             End::Finish
                         };
-                        return format!(
-                            "Click to add a vertex at the {} of the polygon, or type x,y; Esc ends",
-                            end.name()
-                        );
+                        let name = end.name();
+                        return match adding.end {
+                            Some(_) => format!(
+                                "Click where the curve's {name} goes on to, or type x,y; Esc ends"
+                            ),
+                            None => format!(
+                                "Click to add a vertex at the {name} of the polygon, or type x,y; Esc ends"
+                            ),
+                        };
                     }
                     Some(Err(reason)) => return reason,
                     None => {
