@@ -213,7 +213,7 @@ fn one_point_is_refused() {
 fn polygon(random: &mut Random, degree: usize, count: usize, planar: bool) -> FloatPolygon {
     let vertices = walk(random, count, planar);
     let weights = (0..count).map(|_| random.between(1.0, 2.0));
-    let weights = (degree % 3 == 0).then(|| weights.collect());
+    let weights = degree.is_multiple_of(3).then(|| weights.collect());
     FloatPolygon::new(degree, vertices, weights, false).expect("a polygon")
 }
 

@@ -999,7 +999,7 @@ fn a_blend_leaves_both_curves_within_what_it_tells() {
         let size = size_of(&curves);
         let document = Document::from_curves(curves);
         let blend = ("method", Value::Choice(4));
-        let (outcome, after, report) = join(&document, &[blend.clone()]);
+        let (outcome, after, report) = join(&document, std::slice::from_ref(&blend));
         let told = format!("trial {trial}: {}", report.text());
         assert_eq!(text(&report, "method"), "blend", "{told}");
         let Deviation::AtMost(most) = outcome.deviation else {

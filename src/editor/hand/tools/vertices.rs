@@ -379,6 +379,9 @@ impl Tool for NewVertexTool {
                         };
                     }
                     Some(Err(reason)) => return reason,
+                    None if context.settings.draw.way.ends_on_clicks() => {
+                        "Click where the curve goes on to, or type x,y; Esc ends"
+                    }
                     None => {
                         "Click beside the first or last vertex to add one, or type x,y; Esc ends"
                     }
