@@ -414,3 +414,30 @@ fn an_end_that_dives_between_noisy_points_is_told() {
         assert_eq!(told, is_told, "{bent}: {:?}", found.warnings);
     }
 }
+
+#[test]
+fn noisy_points_of_an_arch_get_its_one_extremum_and_no_inflection() {
+    let mut random = Random(5);
+    for trial in 0..5 {
+        // Errors with a standard deviation of 0.25, as sums of twelve even ones.
+        let mut error = || 0.25 * (0..12).map(|_| random.between(-0.5, 0.5)).sum::<f64>();
+        let points: Vec<DVec3> = (0..80)
+            .map(|index| {
+                let t = f64::from(index) / 79.0;
+                let y = 25.0 * (PI * (0.05 + 0.9 * t)).sin();
+                DVec3::new(100.0 * t + error(), y + error(), 0.0)
+            })
+            .collect();
+        let [curve] = fitted(points.clone(), Vec::new()).try_into().expect("one");
+        let features = Features::new(&curve.polygon);
+        let [extrema, inflections] =
+            [Feature::CurvatureExtremum, Feature::Inflection].map(|it| features.count(it));
+        assert_eq!([extrema, inflections], [1, 0], "trial {trial}");
+        let report = report_of(points, Vec::new()).expect("a fit");
+        let rms = report.figure("rms");
+        assert!(
+            matches!(rms, Some(Value::Real(rms)) if rms < 1.2 * 0.25),
+            "trial {trial}: {rms:?}"
+        );
+    }
+}

@@ -27,6 +27,7 @@ mod sign_runs;
 mod slope_coefficients;
 mod splines;
 mod symmetry_axis;
+mod trend;
 mod winding;
 
 pub use counted_points::{CountedPoints, is_closed};

@@ -38,6 +38,8 @@ pub(super) struct Prepared {
     pub(super) unit: f64,
     pub(super) noise: f64,
     pub(super) tolerance: f64,
+    /// Whether that is what the noise allows: none was asked for, and the share of the size is less.
+    pub(super) is_noisy: bool,
     pub(super) outliers: Vec<usize>,
     pub(super) repeated: Vec<usize>,
     pub(super) ends: Vec<EndCondition>,
@@ -89,13 +91,9 @@ impl Prepared {
         let noise = counted.noise_of_counting();
         let weights = counted.weights;
         let counting: Vec<DVec2> = counted.points.iter().map(|it| it.truncate()).collect();
-        let tolerance = match asked.tolerance {
-            Some(tolerance) => tolerance / unit,
-            None => {
-                let normal = (2.0 * (found as f64).ln()).sqrt();
-                (NEAR * size(&counting)).max(NOISE.max(normal) * noise)
-            }
-        };
+        let normal = (2.0 * (found as f64).ln()).sqrt();
+        let [near, noisy] = [NEAR * size(&counting), NOISE.max(normal) * noise];
+        let tolerance = asked.tolerance.map_or(near.max(noisy), |it| it / unit);
         let ends = ends(&counting, asked, unit);
         // Many points leave nothing to bulge between them.
         let (all, counts) = match asked.periodic || found > DENSE {
@@ -118,6 +116,7 @@ impl Prepared {
             unit,
             noise,
             tolerance,
+            is_noisy: asked.tolerance.is_none() && noisy > near,
             outliers: counted.outliers,
             repeated: counted.repeated,
             ends,
