@@ -132,6 +132,13 @@ fn inner_corners(points: &[DVec2]) -> Vec<usize> {
         let corners = (first..next).filter(|turn| is_slab || stands_out(&turns, *turn..turn + 1));
         found.extend(corners.map(|turn| turn + 1));
     }
+    // Noise turns everywhere: a corner is sharper than the other turns by far.
+    let is_found = |turn: &usize| found.binary_search(&(turn + 1)).is_ok();
+    let others = (0..turns.len()).filter(|turn| !is_found(turn));
+    let mut others: Vec<f64> = others.map(|turn| turns[turn].abs()).collect();
+    others.sort_by(f64::total_cmp);
+    let quiet = others.get(others.len() / 2).copied().unwrap_or_default();
+    found.retain(|corner| turns[corner - 1].abs() > SHARPER * quiet);
     // Of the many sharp turns of noise few are corners.
     let sharp = turns.iter().filter(|turn| turn.abs() > CORNER).count();
     let most = (points.len() / POINTS_A_CORNER + FEW_CORNERS).min(MOST_CORNERS);
@@ -262,6 +269,26 @@ mod tests {
         points[0] += DVec3::new(0.05, 0.0, 0.02);
         points[17] += DVec3::new(0.05, 0.05, 0.0);
         assert_eq!(outliers(&points), [17]);
+    }
+
+    #[test]
+    fn noise_on_an_arc_has_no_corners() {
+        let mut state = 7_u64;
+        let mut noise = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            let share = (state >> 11) as f64 / (1_u64 << 53) as f64;
+            0.02 * (share - 0.5)
+        };
+        for _ in 0..20 {
+            let points: Vec<DVec2> = flat(&arc(80))
+                .into_iter()
+                .map(|point| point + DVec2::new(noise(), noise()))
+                .collect();
+            let found = corners(&points, false);
+            assert!(found.len() <= 2, "{found:?}");
+        }
     }
 
     #[test]
