@@ -133,6 +133,9 @@ const FARTHER: f64 = 2.0;
 /// gap.
 const ANOTHER: f64 = 0.1;
 
+/// Pairs of ends whose gaps differ by less than this share are as close: the ends that point at each other are joined.
+const ABOUT_AS_CLOSE: f64 = 0.1;
+
 /// The time that a merged curve is looked for.
 pub(super) const MERGING: Duration = Duration::from_secs(10);
 
@@ -674,16 +677,21 @@ impl Joining<'_> {
             Some(_) => ANOTHER,
             None => FAR,
         };
-        if moved > FAR * size && moved > FARTHER * joint.distance {
-            outcome.warnings.push(format!(
-                "{told}, {share} of its size: chain up to less, or merge"
-            ));
-        } else if moved > another * size {
+        let advice = match moved {
+            _ if moved > FAR * size && moved > FARTHER * joint.distance => {
+                Some("chain up to less, or merge")
+            }
+            _ if moved > another * size => Some("Bridge keeps both, or join other ends"),
+            _ => None,
+        };
+        let far = advice.map(|advice| format!("The second moves by {share} of its size: {advice}"));
+        outcome.warnings.extend(far);
+        outcome.remarks.push(told);
+        // Nobody asked for another curve.
+        if method(self.values).is_none() && moved > ANOTHER * size {
             outcome
-                .warnings
-                .push(format!("{told}, {share} of its size: Bridge keeps both"));
-        } else {
-            outcome.remarks.push(told);
+                .requirements
+                .push((other, vec![Requirement::Failed { left: None }]));
         }
         Ok(outcome)
     }
@@ -750,7 +758,7 @@ fn nearest(polygons: [&FloatPolygon; 2], given: [Option<End>; 2]) -> [End; 2] {
     let distances = gaps.iter().map(|(_, gap)| gap.distance);
     let least = distances.fold(f64::INFINITY, f64::min);
     let size = polygons.map(|polygon| polygon.size()).into_iter();
-    let as_close = least * (1.0 + AS_CLOSE) + ROUNDING * size.fold(0.0, f64::max);
+    let as_close = least * (1.0 + ABOUT_AS_CLOSE) + ROUNDING * size.fold(0.0, f64::max);
     let closest = gaps.into_iter().filter(|(_, gap)| gap.distance <= as_close);
     // Turnings that differ by rounding are alike.
     let turning = |gap: &Gap| (gap.turning / AS_CLOSE).round();
