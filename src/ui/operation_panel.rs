@@ -10,7 +10,7 @@ use super::feature_comparison::OUTDATED;
 use super::fitted_points::fitted_points_ui;
 use super::number_field::FieldEvent;
 use super::operation_fields::{OperationFields, Refused};
-use super::operation_report::{ReportView, failure, summary_ui, two_lines_ui, warning};
+use super::operation_report::{ReportView, failure, summary_ui, three_lines_ui, warning};
 use super::theme::{STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::document::CurveId;
@@ -18,7 +18,7 @@ use crate::editor::{Editor, OperationInProgress, told};
 use crate::operations::Atlas;
 
 /// The heights of the places for the summary, the error and the buttons, one below the other.
-const FOOT: [f32; 3] = [16.0 * STEP, 9.0 * STEP, 9.0 * STEP];
+const FOOT: [f32; 3] = [16.0 * STEP, 13.0 * STEP, 9.0 * STEP];
 
 /// The time between two looks at a search.
 const REFRESH: Duration = Duration::from_millis(100);
@@ -155,9 +155,9 @@ impl OperationPanel {
                     ui.multiply_opacity(OUTDATED);
                 }
                 if let Some(text) = refused.or_else(|| failure(in_progress)) {
-                    two_lines_ui(ui, &text, Tokens::of(ui).error);
+                    three_lines_ui(ui, &text, Tokens::of(ui).error);
                 } else if let Some(text) = warning(in_progress) {
-                    two_lines_ui(ui, text, Tokens::of(ui).warning);
+                    three_lines_ui(ui, text, Tokens::of(ui).warning);
                 }
             });
             has_buttons.then(|| buttons_ui(ui, in_progress, progress))

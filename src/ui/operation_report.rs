@@ -58,6 +58,9 @@ impl ReportView {
         in_progress: &OperationInProgress,
         report: &Report,
     ) -> Option<Values> {
+        for warning in &report.warnings {
+            widgets::warning(ui, warning);
+        }
         let clicked = self.trade_off_ui(ui, in_progress, report);
         ui.scope(|ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
@@ -70,9 +73,6 @@ impl ReportView {
                 self.features.show(ui, in_progress);
             }
         });
-        for warning in &report.warnings {
-            widgets::warning(ui, warning);
-        }
         for remark in &report.remarks {
             widgets::note(ui, remark);
         }
@@ -250,11 +250,11 @@ fn joined<T>(all: &[T], text: impl Fn(&T) -> String) -> String {
     all.iter().map(text).collect::<Vec<_>>().join(", ")
 }
 
-/// Show an error or a warning on two lines; a tooltip shows a longer one.
-pub fn two_lines_ui(ui: &mut Ui, text: &str, colour: Color32) {
+/// Show an error or a warning on three lines; a tooltip shows a longer one.
+pub fn three_lines_ui(ui: &mut Ui, text: &str, colour: Color32) {
     let font = TextStyle::Body.resolve(ui.style());
     let width = ui.available_width();
     let mut job = LayoutJob::simple(text.to_owned(), font, colour, width);
-    job.wrap.max_rows = 2;
+    job.wrap.max_rows = 3;
     ui.add(Label::new(job));
 }
