@@ -18,6 +18,8 @@ use super::end_fit_step::EndFitStep;
 use super::fitted_points::FittedPoints;
 use super::in_progress::{OperationInProgress, Run, Stage};
 
+const HELD_BACK: &str = "Not applied yet: look at the warning, Enter applies";
+
 /// Hold the operation in progress and run it beside the frame.
 #[derive(Debug, Default)]
 pub(in crate::editor) struct Operations {
@@ -160,6 +162,10 @@ impl Operating<'_> {
         }
         self.operations.client.forget();
         self.operations.measuring.forget();
+        let is_held_back = self.message.as_ref().is_some_and(|it| it.text == HELD_BACK);
+        if previews && is_held_back {
+            *self.message = None;
+        }
         // A preview that something else has ended has nothing to restore.
         if let Some(left) = self.operations.operation.take()
             && previews
@@ -692,7 +698,7 @@ impl Operating<'_> {
 
 /// What is told of a result that waits because of its warnings.
 fn held_back() -> Note {
-    Note::told("Not applied yet: look at the warning, Enter applies").warning()
+    Note::told(HELD_BACK).warning()
 }
 
 #[cfg(test)]
