@@ -1,18 +1,19 @@
 //! The inspector of a reference: its shape, its placement and its figures.
 
-use eframe::egui::Ui;
+use eframe::egui::{Button, Ui, vec2};
 use glam::{DQuat, EulerRot};
 
 use super::curvature_rows::curvature_rows;
 use super::formula_fields::FormulaFields;
 use super::number_field::{FieldEvent, NumberField, field_width, vector_row};
-use super::theme::STEP;
+use super::theme::{ROW, STEP};
 use super::widgets;
 use super::{document_unit, figures};
 use crate::document::{CurveId, Reference};
 use crate::editor::{CurvatureDisplay, Editor, ReferenceChange, ReferenceReport, told};
 use crate::geometry::parameters::Quantity;
 use crate::geometry::references::{AnalyticForm, ReferenceCurve, ReferenceForm};
+use crate::operations;
 
 /// The width of a field that stands alone.
 const FIELD: f32 = 120.0;
@@ -41,6 +42,7 @@ pub fn shape_ui(
         }
         ReferenceForm::Points(list) => {
             widgets::figure_row(ui, "Points", &list.points().len().to_string());
+            fit_ui(ui, editor);
         }
         ReferenceForm::Nurbs(nurbs) => {
             widgets::note(
@@ -53,6 +55,21 @@ pub fn shape_ui(
             widgets::fact_row(ui, "Weights", if is_rational { "rational" } else { "none" });
             interval_ui(ui, editor, curve);
         }
+    }
+}
+
+/// The button that fits a curve to points.
+fn fit_ui(ui: &mut Ui, editor: &mut Editor) {
+    let Some(operation) = operations::find("fit") else {
+        return;
+    };
+    let is_ready = editor.input_of(operation).is_ok();
+    let width = ui.available_width();
+    let button = ui.add_enabled_ui(is_ready, |ui| {
+        ui.add_sized(vec2(width, ROW), Button::new("Fit a curve"))
+    });
+    if button.inner.on_hover_text(operation.help).clicked() {
+        told(editor.preview_operation(operation));
     }
 }
 
