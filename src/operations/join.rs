@@ -688,7 +688,8 @@ impl Joining<'_> {
         outcome.warnings.extend(far);
         outcome.remarks.push(told);
         // Nobody asked for another curve.
-        if method(self.values).is_none() && moved > ANOTHER * size {
+        let is_chosen = method(self.values).is_none() && asked.is_none();
+        if is_chosen && moved > ANOTHER * size {
             outcome
                 .requirements
                 .push((other, vec![Requirement::Failed { left: None }]));

@@ -1,5 +1,7 @@
 //! Curves that are joined, and curves that are closed.
 
+use std::f64::consts::PI;
+
 use batten::document::{Curve, Document, Edit, EndMatch, LockedVertices, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::features::{Feature, Features};
@@ -672,6 +674,59 @@ fn a_chain_that_stretches_the_second_curve_is_a_warning() {
             .iter()
             .any(|it| it.contains("% of its size"));
         assert_eq!(told, is_told, "{}", report.text());
+    }
+}
+
+#[test]
+fn a_chain_that_throws_the_second_curve_is_reached_only_where_it_is_asked_for() {
+    let arch = (-2..13).map(|index| {
+        let t = 0.1 * f64::from(index);
+        (100.0 * t, 25.0 * (0.9 * PI * t).sin())
+    });
+    let bow = [
+        (90.0, -60.0),
+        (92.0, -40.0),
+        (100.0, -30.0),
+        (110.5, -21.6),
+        (116.7, 0.0),
+        (116.7, 16.0),
+        (108.0, 35.0),
+        (100.0, 47.4),
+        (85.0, 65.0),
+        (75.0, 75.0),
+    ];
+    let arch: Vec<(f64, f64)> = arch.collect();
+    let curves = [("arch", &arch[..]), ("bow", &bow)].map(|(name, points)| {
+        Curve::new(name, FloatPolygon::planar(5, points).expect("a polygon"))
+    });
+    let document = Document::from_curves(curves);
+    for (given, reached) in [(vec![], false), (vec![("method", Value::Choice(3))], true)] {
+        let (outcome, _, report) = join(&document, &given);
+        assert_eq!(text(&report, "method"), "chain");
+        assert_eq!(outcome.reached, reached, "{}", report.text());
+        assert!(
+            report.warnings[0].contains("% of its size"),
+            "{}",
+            report.text()
+        );
+    }
+}
+
+#[test]
+fn of_ends_about_as_close_those_that_point_at_each_other_are_joined() {
+    // The start of the second lies ahead of the first, its end beside, 10 away.
+    for (ahead, end) in [(10.4, "start"), (11.5, "end")] {
+        let document = Document::from_curves([
+            line("a", [-20.0, 0.0], [0.0, 0.0]),
+            line("b", [ahead, 0.0], [9.0, 19.0_f64.sqrt()]),
+        ]);
+        let (_, _, report) = join(&document, &[("method", Value::Choice(3))]);
+        let joined = format!("Joined: end of the first and {end} of the second");
+        assert!(
+            report.text().contains(&joined),
+            "{ahead}: {}",
+            report.text()
+        );
     }
 }
 

@@ -26,7 +26,6 @@ impl EndFitStep {
     ) -> LastAction {
         let report = report.filter(|_| reply.is_ok());
         let made = report.map_or(0, |report| self.passes_of(curve, report));
-        let is_joint = self.action == EndFitAction::BothAtOnce;
         // The figures of the steps show the result of these two.
         let is_silent = matches!(self.action, EndFitAction::Translate | EndFitAction::Rotate);
         LastAction {
@@ -34,13 +33,18 @@ impl EndFitStep {
             revision,
             passes: self.passes + made,
             largest_move: report
-                .filter(|_| is_joint)
+                .filter(|_| self.is_joint())
                 .and_then(|report| report.largest_move),
             reply: match reply {
                 Ok(_) if is_silent => Ok(Note::silent()),
                 reply => reply.clone(),
             },
         }
+    }
+
+    /// Whether it corrects both ends at once.
+    pub fn is_joint(self) -> bool {
+        self.action == EndFitAction::BothAtOnce
     }
 
     /// The passes of steps 2 to 6 that the action made.

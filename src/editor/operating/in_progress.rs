@@ -7,7 +7,6 @@ use glam::DVec2;
 use super::end_fit_step::EndFitStep;
 use super::fitted_points::FittedPoints;
 use crate::document::{Curve, CurveId, Document, Edit, quoted};
-use crate::editor::hand::end_fit::EndFitAction;
 use crate::editor::selection::Selection;
 use crate::editor::view::{Framing, Mark, Viewport};
 use crate::editor::workspace::PreviewId;
@@ -140,12 +139,11 @@ impl OperationInProgress {
         self.pending && self.applies
     }
 
-    /// Whether the run has warnings that nobody could see yet. The best of a search was seen before, and the steps of the end
-    /// fit lead to a result only together.
+    /// Whether the run has warnings that nobody could see yet. The best of a search was seen before, and single steps of the
+    /// end fit are no result.
     pub(super) fn is_unseen(&self) -> bool {
-        let is_step = |step: &EndFitStep| step.action != EndFitAction::BothAtOnce;
         !self.is_applied()
-            && !self.end_fit.as_ref().is_some_and(is_step)
+            && self.end_fit.is_none_or(EndFitStep::is_joint)
             && !self.operation.can_be_stopped()
             && self.finished().is_some_and(Run::warns)
     }
@@ -206,8 +204,8 @@ impl OperationInProgress {
             || active.is_some_and(|active| self.made_curves(now).contains(&active))
     }
 
-    /// The curves that can be the second one, neither locked nor hidden, with their names, and which one is; none where the operation takes no
-    /// second curve.
+    /// The curves that can be the second one, neither locked nor hidden, with their names, and which one is; none where
+    /// the operation takes no second curve.
     pub fn seconds(&self) -> (Vec<(CurveId, String)>, Option<CurveId>) {
         if self.operation.inputs != Inputs::Two {
             return (Vec::new(), None);

@@ -2,7 +2,6 @@
 
 use crate::document::{CurveId, Document};
 use crate::editor::hand::Hand;
-use crate::editor::hand::end_fit::EndFitAction;
 use crate::editor::jobs::Client;
 use crate::editor::jobs::patience::Patience;
 use crate::editor::reply::{Message, Note, Refusal, Reply};
@@ -111,9 +110,8 @@ impl Operating<'_> {
         end_fit: Option<EndFitStep>,
     ) -> Reply {
         let begun = self.preview(operation, input, given, end_fit);
-        let is_joint = end_fit.is_some_and(|step| step.action == EndFitAction::BothAtOnce);
-        if begun.is_ok() && is_joint && self.previewed().is_some_and(OperationInProgress::is_unseen)
-        {
+        let is_unseen = self.previewed().is_some_and(OperationInProgress::is_unseen);
+        if begun.is_ok() && end_fit.is_some() && is_unseen {
             return Ok(held_back());
         }
         let reply = begun.and_then(|()| self.settle());

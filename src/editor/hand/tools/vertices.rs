@@ -282,12 +282,15 @@ impl NewVertexTool {
     }
 
     /// Let the next click end the curve, or add a vertex of the polygon.
-    fn change_way(&self, context: &Context) -> Effect {
+    fn change_way(&self, context: &Context) -> Vec<Effect> {
         let way = match context.settings.draw.way.ends_on_clicks() {
             true => DrawWay::Vertices,
             false => DrawWay::OnClicks,
         };
-        context.set(|settings| settings.draw.way = way)
+        vec![
+            context.set(|settings| settings.draw.way = way),
+            Effect::Say(way.label().to_owned()),
+        ]
     }
 
     /// The effects of beginning a gesture that makes a vertex.
@@ -327,7 +330,7 @@ impl NewVertexTool {
 impl Tool for NewVertexTool {
     fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
         if gesture == Gesture::Key(Key::Character('t')) && self.place == NewVertex::AtEnd {
-            return vec![self.change_way(context)];
+            return self.change_way(context);
         }
         let (Gesture::Click(place) | Gesture::DragStart(place)) = gesture else {
             return self.go_on(gesture, context);
