@@ -372,9 +372,9 @@ impl Editor {
         }
         self.hand.gestures.reset();
         if let Some(previewed) = self.previewed_operation() {
-            let cancelled = format!("{}: cancelled", previewed.operation().label);
+            let ended = previewed.ended();
             self.operating().interrupt();
-            self.message = Message::of(&Ok(Note::told(cancelled)));
+            self.message = Message::of(&Ok(ended));
             return true;
         }
         let ended = self.workspace.interrupt();

@@ -131,6 +131,21 @@ fn apply_during_a_run_waits_and_says_so_and_can_be_cancelled() {
     assert!(script.editor.operation().is_none());
     assert_eq!(script.steps(), 0);
 
+    // What else begins says that the result never came.
+    begin(&mut script.editor);
+    let begun = script.editor.preview_operation(operation("trim"));
+    begun.expect("a preview");
+    let dropped = format!(
+        "{}: not applied, it was not ready",
+        operation("elevate-degree").label
+    );
+    assert_eq!(script.message(), dropped);
+    script.key(Key::Escape);
+    begin(&mut script.editor);
+    script.command(Command::Undo);
+    assert_eq!(script.message(), dropped);
+    assert_eq!(script.steps(), 0);
+
     begin(&mut script.editor);
     // The result of other values is to be seen first.
     let other = [("degree", Value::Whole(6))];

@@ -9,6 +9,7 @@ use crate::editor::commands::deleting;
 use crate::editor::commands::items::{self, Change};
 use crate::editor::commands::locking;
 use crate::editor::commands::references::{addition, new_formula, new_reference};
+use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Message, Note, Reply, with_lines};
 use crate::editor::selection::{Selection, VertexId};
 use crate::editor::view::layers::Layer;
@@ -69,10 +70,9 @@ impl Editor {
         if self.operating().undo_values() {
             return Note::silent();
         }
-        let previewed = self.previewed_operation();
-        let cancelled = previewed.map(|it| format!("{}: cancelled", it.operation().label));
+        let ended = self.previewed_operation().map(OperationInProgress::ended);
         if self.interrupt() {
-            return cancelled.map_or_else(Note::silent, Note::told);
+            return ended.unwrap_or_else(Note::silent);
         }
         // The preview of a field is taken back, and no step before it.
         if in_field && self.workspace.history().undo_steps() == steps {

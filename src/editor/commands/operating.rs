@@ -45,10 +45,14 @@ impl Editor {
             return self.apply_operation(operation, &[]);
         }
         self.message = None;
+        let ended = self.previewed_operation();
+        let dropped = ended
+            .filter(|it| it.is_waiting_to_apply())
+            .map(OperationInProgress::ended);
         self.interrupt();
         let input = self.input_of(operation);
         let begun = self.operating().preview(operation, input, &[], None);
-        self.tell(begun.map(|()| Note::silent()))
+        self.tell(begun.map(|()| dropped.unwrap_or_else(Note::silent)))
     }
 
     /// Apply an operation with some values; the others have their defaults. The message shows the reply.

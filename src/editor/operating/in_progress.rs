@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::end_fit_step::EndFitStep;
 use super::fitted_points::FittedPoints;
 use crate::document::{Curve, CurveId, Document, Edit, quoted};
+use crate::editor::reply::Note;
 use crate::editor::selection::Selection;
 use crate::editor::view::{Framing, Mark, Viewport};
 use crate::editor::workspace::PreviewId;
@@ -137,6 +138,15 @@ impl OperationInProgress {
     /// Whether Apply was asked for before the run is finished.
     pub fn is_waiting_to_apply(&self) -> bool {
         self.pending && self.applies
+    }
+
+    /// What is told when something else ends the preview.
+    pub(in crate::editor) fn ended(&self) -> Note {
+        let label = self.operation.label;
+        match self.is_waiting_to_apply() {
+            true => Note::told(format!("{label}: not applied, it was not ready")).warning(),
+            false => Note::told(format!("{label}: cancelled")),
+        }
     }
 
     /// Whether the run has warnings that nobody could see yet. The best of a search was seen before, and single steps of the
