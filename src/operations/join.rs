@@ -30,7 +30,8 @@ use crate::geometry::fairing::bends::Bends;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{
-    BezierPolygon, Continuity, End, FloatPolygon, Progress, percent, rounded_up, significant,
+    BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, percent, rounded_up,
+    significant,
 };
 
 const METHOD: Parameter = Parameter {
@@ -136,8 +137,9 @@ const ANOTHER: f64 = 0.1;
 /// Pairs of ends whose gaps differ by less than this share are as close: the ends that point at each other are joined.
 const ABOUT_AS_CLOSE: f64 = 0.1;
 
-/// The time that a merged curve is looked for.
+/// The time that a merged curve, and a longer one that a blend, is looked for.
 pub(super) const MERGING: Duration = Duration::from_secs(10);
+const BLENDING: Duration = Duration::from_secs(20);
 
 /// What is left of a match, in units of the curve's size.
 const MET: f64 = 1e-9;
@@ -449,7 +451,7 @@ impl Joining<'_> {
             Some(_) => self.progress.clone(),
             None => self.progress.unshown(),
         };
-        let progress = progress.limited(MERGING);
+        let progress = progress.limited(if is_blend { BLENDING } else { MERGING });
         let found = match is_blend {
             true => merge_blended(left, right, tolerance, &progress),
             false => merge(left, right, tolerance, &progress),
@@ -460,6 +462,7 @@ impl Joining<'_> {
             deviation,
             bounded,
             extrema,
+            waves,
         } = found.map_err(|error| merge_error(error, &progress))?;
         let tolerance = match deviation <= most {
             true => tolerance.max(deviation * (1.0 + MET)),
@@ -508,7 +511,12 @@ impl Joining<'_> {
         if is_blend {
             let knuckle = bridge::sharper("blend", &Bends::between(&polygon, joint));
             let crossing = new_crossing(&[left, right], &polygon);
-            outcome.warnings.extend(knuckle.into_iter().chain(crossing));
+            let wavy = (waves > 0).then(|| {
+                let added = counted(waves, "inflection", "inflections");
+                format!("The blend needs {added} more than its ends ask for: choose Chain")
+            });
+            let told = [knuckle, crossing, wavy].into_iter().flatten();
+            outcome.warnings.extend(told);
         } else {
             joint[1] = joint[0];
         }
@@ -569,9 +577,9 @@ impl Joining<'_> {
         let polygons = [&first.polygon, &part];
         let fault = bridge::fault(&found, polygons);
         let knuckle = bridge::knuckle(&found).filter(|_| fault.is_none());
-        // Where the second moves, the operation chose the place that makes it cross; a bridge that crosses in a knuckle
-        // is no use.
-        let is_chosen = moves || knuckle.is_some();
+        // Where the second moves, or nobody asked for a bridge, the operation chose what crosses; a bridge that crosses
+        // in a knuckle is no use.
+        let is_chosen = moves || method(self.values).is_none() || knuckle.is_some();
         outcome.warnings.extend(knuckle);
         let crossing = new_crossing(&polygons, &found.polygon);
         let failed = vec![(self.parts[0].0, vec![Requirement::Failed { left: None }])];

@@ -1046,6 +1046,48 @@ fn a_short_curve_beside_the_end_of_a_long_one_is_merged_in_either_order() {
 }
 
 #[test]
+fn a_blend_of_arches_that_meet_in_a_nose_bends_to_one_side() {
+    let upper = [
+        (-148.78442098275337, -86.39257231499809),
+        (-74.87759494796592, -41.387918667054336),
+        (0.7550434125845413, -0.6982048764401938),
+        (73.3569651532714, 43.72243852257673),
+        (148.77243971450895, 73.2278827376406),
+        (230.6209274612029, 71.23786869569514),
+        (298.8428502058479, 43.589314687483665),
+        (370.74099619598377, 16.868353214834784),
+        (449.10257981269694, -3.7377185101736785),
+    ];
+    let lower = [
+        (291.7, 153.9),
+        (309.7, 73.6),
+        (308.2, 15.5),
+        (287.2, -20.7),
+        (249.1, -36.1),
+        (202.6, -36.1),
+        (158.4, -26.9),
+        (121.7, -11.6),
+        (93.6, 9.1),
+        (74.2, 35.2),
+    ];
+    let polygons = [&upper[..], &lower].map(|it| FloatPolygon::planar(5, it).expect("a polygon"));
+    let curves = polygons.map(|polygon| Curve::new("part".to_owned(), polygon));
+    let size = size_of(&curves);
+    let document = Document::from_curves(curves);
+    let (outcome, after, report) = join(&document, &[("method", Value::Choice(4))]);
+    let told = report.text();
+    let Deviation::AtMost(most) = outcome.deviation else {
+        panic!("{told}");
+    };
+    assert!(outcome.reached && most <= 1e-3 * size, "{told}");
+    let nose = &only(&after).polygon;
+    let features = Features::proved(nose, |_| true).expect("features");
+    assert_eq!(features.count(Feature::Inflection), 0, "{told}");
+    assert!(features.count(Feature::CurvatureExtremum) <= 8, "{told}");
+    assert_eq!(curve_crossing(nose), None, "{told}");
+}
+
+#[test]
 fn a_blend_leaves_both_curves_within_what_it_tells() {
     let mut random = Random(8);
     for trial in 0..3 {

@@ -2,7 +2,8 @@
 //! curvatures.
 //!
 //! Hermite data leave the two speeds free. Those with the least bending and change of curvature are taken, without
-//! regard to size: L ∫ κ² ds + L³ ∫ (dκ/ds)² ds / 10.
+//! regard to size: L ∫ κ² ds + L³ ∫ (dκ/ds)² ds / 10. Each inflection of a planar blend counts as much as all of it:
+//! a bulb is a little shorter, and wavy.
 
 use glam::DVec3;
 
@@ -37,7 +38,7 @@ pub fn blend(first: &FloatPolygon, second: &FloatPolygon) -> Option<FloatPolygon
     let ends = [Condition::of(&jets[0])?, Condition::of(&jets[1])?];
     let at = |speeds: [f64; 2]| {
         let curve = quintic(&ends, speeds)?;
-        let energy = energy(&curve, planar);
+        let energy = cost(&curve, planar);
         energy.is_finite().then_some((energy, speeds, curve))
     };
     let speed = |step: usize| gap * SLOWEST * FACTOR.powi(step as i32);
@@ -100,15 +101,22 @@ fn quintic(ends: &[Condition; 2], speeds: [f64; 2]) -> Option<FloatPolygon> {
     bezier.to_float().ok()
 }
 
-/// How much a curve bends and changes its curvature, whatever its size.
-fn energy(curve: &FloatPolygon, planar: bool) -> f64 {
+/// How much a curve bends and changes its curvature, whatever its size, as often as it bends over and once more.
+fn cost(curve: &FloatPolygon, planar: bool) -> f64 {
     let step = 1.0 / SAMPLES as f64;
     let mut sums = [0.0; 3];
+    let (mut side, mut inflections) = (0.0, 0);
     for sample in 0..=SAMPLES {
         let jet = curve.jet(sample as f64 * step);
         let outer = sample == 0 || sample == SAMPLES;
         let length = jet.speed() * step * if outer { 0.5 } else { 1.0 };
         let slope = jet.curvature_slope(planar);
+        // At an end without curvature its sign is rounding.
+        if planar && !outer {
+            let curvature = jet.signed_curvature();
+            inflections += i32::from(side * curvature < 0.0);
+            side = curvature;
+        }
         // A curve in space has no slope where it has no curvature.
         let slope = if planar || slope.is_finite() {
             slope
@@ -121,7 +129,8 @@ fn energy(curve: &FloatPolygon, planar: bool) -> f64 {
         }
     }
     let [length, bending, change] = sums;
-    length * bending + CHANGE * length.powi(3) * change
+    let energy = length * bending + CHANGE * length.powi(3) * change;
+    f64::from(1 + inflections) * energy
 }
 
 #[cfg(test)]

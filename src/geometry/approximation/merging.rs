@@ -85,6 +85,8 @@ pub struct Merged {
     pub bounded: bool,
     /// The curvature extrema of both curves together, and of the merged one.
     pub extrema: [usize; 2],
+    /// The inflections of a curve with a blend beyond those of both curves and the blend.
+    pub waves: usize,
 }
 
 impl Merged {
@@ -233,13 +235,15 @@ pub fn merge(
         let merged = measured(parts, polygon, [own, extrema], progress);
         return merged.map_err(|_| MergeError::Cancelled);
     }
+    let is_smooth = joint.angle <= SMOOTH && joint.meets(tolerance);
     let search = Search {
         points: points_of(parts, tolerance),
         parts,
         most: MOST * vertices_of(parts),
-        is_smooth: joint.angle <= SMOOTH && joint.meets(tolerance),
+        is_smooth,
         planar: parts.iter().all(|it| it.is_planar()),
-        inflections: inflections + usize::from(bends_over(parts)),
+        // Across a gap the nearest curve would turn there and back.
+        inflections: (!is_smooth).then_some(inflections + usize::from(bends_over(parts))),
         tolerance,
         progress,
     };
@@ -248,7 +252,8 @@ pub fn merge(
         // With few extrema a corner or a gap spreads over both curves.
         false => own,
     };
-    search.nearest(own, first_tried, own + ADDED)
+    let others = (own..=own + ADDED).filter(|extrema| *extrema != first_tried);
+    search.nearest(own, [first_tried].into_iter().chain(others))
 }
 
 /// Make one curve of an open one and another beyond a gap: both stay within the tolerance, and a blend with their tangents
@@ -266,7 +271,7 @@ pub fn merge_blended(
     let between = blend(first, second).ok_or(MergeError::NoBlend)?;
     let planar = parts.iter().all(|it| it.is_planar());
     let [own, inflections] = counts_of(parts, progress)?;
-    let [blended, _] = counts_of([&between], progress)?;
+    let [blended, bends] = counts_of([&between], progress)?;
     let added = [[first, &between], [&between, second]];
     let added = added.map(|pair| added_by_joint(pair, planar, tolerance));
     let first_tried = own + blended + added.into_iter().sum::<usize>();
@@ -276,11 +281,28 @@ pub fn merge_blended(
         most: (MOST * vertices_of(parts)).max(MOST_BLENDED),
         is_smooth: true,
         planar,
-        inflections,
+        // Beside a blend that bends to one side a flat end must not wave.
+        inflections: (bends == 0).then_some(inflections),
         tolerance,
         progress,
     };
-    search.nearest(own, first_tried, first_tried + ADDED)
+    // What the blend has cannot be missed without leaving the curves.
+    let tried = first_tried..=first_tried + ADDED;
+    let merged = match search.nearest(own, tried.clone()) {
+        Err(MergeError::NotFound) if search.inflections.is_some() => {
+            let search = Search {
+                inflections: None,
+                ..search
+            };
+            search.nearest(own, tried)?
+        }
+        found => found?,
+    };
+    let [_, after] = counts_of([&merged.polygon], &progress.without_limit())?;
+    Ok(Merged {
+        waves: after.saturating_sub(inflections + bends),
+        ..merged
+    })
 }
 
 fn open_parts<'a>(
@@ -307,20 +329,22 @@ struct Search<'a> {
     /// Whether the points go on without a gap or a corner.
     is_smooth: bool,
     planar: bool,
-    /// The inflections of both, and one where the curvature changes its sign at the joint.
-    inflections: usize,
+    /// The inflections asked for.
+    inflections: Option<usize>,
     tolerance: f64,
     progress: &'a Progress,
 }
 
 impl Search<'_> {
-    /// The first curve within the tolerance, with the extrema that are tried first, or from those of both up to the most;
-    /// else the nearest one.
-    fn nearest(&self, own: usize, first_tried: usize, most: usize) -> Result<Merged, MergeError> {
+    /// The first curve within the tolerance that has one of the numbers of extrema; else the nearest one.
+    fn nearest(
+        &self,
+        own: usize,
+        tried: impl IntoIterator<Item = usize>,
+    ) -> Result<Merged, MergeError> {
         let (parts, tolerance, progress) = (self.parts, self.tolerance, self.progress);
-        let others = (own..=most).filter(|extrema| *extrema != first_tried);
         let mut nearest: Option<Merged> = None;
-        for extrema in [first_tried].into_iter().chain(others) {
+        for extrema in tried {
             let found = self.with_extrema(extrema)?;
             if progress.is_cancelled() && !progress.is_late() {
                 return Err(MergeError::Cancelled);
@@ -382,8 +406,7 @@ impl Search<'_> {
             degree: self.degree(),
             most: Some(self.most),
             extrema: Extrema::Exactly(extrema),
-            // Across a gap the nearest curve would turn there and back.
-            inflections: (!self.is_smooth).then_some(self.inflections),
+            inflections: self.inflections,
             tolerance: self.sought(KEPT),
             exact_ends: [true; 2],
             directions: self.ends().map(|(_, end)| Some(end.direction?.truncate())),
@@ -564,6 +587,7 @@ fn measured(
         deviation,
         bounded,
         extrema,
+        waves: 0,
     })
 }
 
