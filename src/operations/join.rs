@@ -137,7 +137,7 @@ const ANOTHER: f64 = 0.1;
 /// Pairs of ends whose gaps differ by less than this share are as close: the ends that point at each other are joined.
 const ABOUT_AS_CLOSE: f64 = 0.1;
 
-/// The time that a merged curve, and a longer one that a blend, is looked for.
+/// The time for the search of a merged curve, and for that of a blend.
 pub(super) const MERGING: Duration = Duration::from_secs(10);
 const BLENDING: Duration = Duration::from_secs(20);
 

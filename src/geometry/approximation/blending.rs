@@ -38,8 +38,8 @@ pub fn blend(first: &FloatPolygon, second: &FloatPolygon) -> Option<FloatPolygon
     let ends = [Condition::of(&jets[0])?, Condition::of(&jets[1])?];
     let at = |speeds: [f64; 2]| {
         let curve = quintic(&ends, speeds)?;
-        let energy = cost(&curve, planar);
-        energy.is_finite().then_some((energy, speeds, curve))
+        let cost = cost(&curve, planar);
+        cost.is_finite().then_some((cost, speeds, curve))
     };
     let speed = |step: usize| gap * SLOWEST * FACTOR.powi(step as i32);
     let pairs = (0..SPEEDS).flat_map(|one| (0..SPEEDS).map(move |other| [one, other]));
@@ -101,7 +101,7 @@ fn quintic(ends: &[Condition; 2], speeds: [f64; 2]) -> Option<FloatPolygon> {
     bezier.to_float().ok()
 }
 
-/// How much a curve bends and changes its curvature, whatever its size, as often as it bends over and once more.
+/// How much a curve bends and changes its curvature, whatever its size, times one more than its inflections.
 fn cost(curve: &FloatPolygon, planar: bool) -> f64 {
     let step = 1.0 / SAMPLES as f64;
     let mut sums = [0.0; 3];
