@@ -125,8 +125,10 @@ fn look_at(polygon: &FloatPolygon, target: DVec3) {
         let _ = discrete_torsion(four[0], four[1], four[2], four[3]);
     }
     for corner in vertices.windows(3) {
-        let _ = discrete_curvature(corner[0], corner[1], corner[2]);
-        let _ = turning_angle(corner[0], corner[1], corner[2]);
+        for planar in [true, false] {
+            let _ = discrete_curvature(corner[0], corner[1], corner[2], planar);
+            let _ = turning_angle(corner[0], corner[1], corner[2], planar);
+        }
         let _ = angle_between(corner[0], corner[1]);
     }
 }

@@ -103,7 +103,7 @@ fn figure_1_shows_the_closed_polygon_of_the_ninth_degree_arc() {
     }
     let angles = numbers(&figure["closed_turning_angles"]);
     for (corner, expected) in clamped.vertices().windows(3).zip(angles) {
-        let found = turning_angle(corner[0], corner[1], corner[2]);
+        let found = turning_angle(corner[0], corner[1], corner[2], true);
         assert_near("turning angle", found, expected, EXACT, expected.abs());
     }
     let far = number(&figure["evolute_far"]);

@@ -18,6 +18,8 @@ pub(super) const BLOCK: usize = 64;
 pub struct VertexChain {
     vertices: Vec<DVec3>,
     closed: bool,
+    /// Whether all vertices lie in the plane z = 0: only then angles and curvatures have signs.
+    planar: bool,
     blocks: Vec<Block>,
 }
 
@@ -86,10 +88,13 @@ impl VertexChain {
     /// Take other vertices; only blocks in which something changed are redone. Returns the range
     /// of vertices that changed, or `None` if their number did.
     pub(super) fn update(&mut self, vertices: &[DVec3], closed: bool) -> Option<Range<usize>> {
-        if self.vertices.len() != vertices.len() || self.closed != closed {
+        let planar = vertices.iter().all(|vertex| vertex.z == 0.0);
+        let is_as_before = (self.closed, self.planar) == (closed, planar);
+        if self.vertices.len() != vertices.len() || !is_as_before {
             self.vertices.clear();
             self.vertices.extend_from_slice(vertices);
             self.closed = closed;
+            self.planar = planar;
             self.blocks.clear();
             let blocks = vertices.len().div_ceil(BLOCK);
             self.blocks.resize_with(blocks, Block::default);
@@ -106,6 +111,12 @@ impl VertexChain {
     pub(super) fn replace(&mut self, first: usize, vertices: &[DVec3]) {
         let changed = first..first + vertices.len();
         self.vertices[changed.clone()].copy_from_slice(vertices);
+        let planar = self.vertices.iter().all(|vertex| vertex.z == 0.0);
+        if planar != self.planar {
+            self.planar = planar;
+            self.blocks.iter_mut().for_each(|it| *it = Block::default());
+            return;
+        }
         // A torsion angle reaches one vertex back and two on; a leg and a turning angle less far.
         let count = self.vertices.len();
         let last = self.blocks.len() - 1;
@@ -224,13 +235,13 @@ impl VertexChain {
     /// The turning angle at vertex `index`, in radians.
     pub fn turn(&self, index: usize) -> Option<f64> {
         self.corner(index)
-            .map(|[before, corner, after]| turning_angle(before, corner, after))
+            .map(|[before, corner, after]| turning_angle(before, corner, after, self.planar))
     }
 
     /// The discrete curvature at vertex `index`.
     fn curvature(&self, index: usize) -> Option<f64> {
         let [before, corner, after] = self.corner(index)?;
-        Some(discrete_curvature(before, corner, after))
+        Some(discrete_curvature(before, corner, after, self.planar))
     }
 
     /// The torsion angle along the leg from vertex `index` to the next, in radians.

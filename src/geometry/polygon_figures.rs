@@ -55,15 +55,12 @@ impl Range {
 /// A polygon that turns by more than this at a vertex, in radians, folds: nobody could drag it there.
 pub const FOLD: f64 = 2.0 * PI / 3.0;
 
-/// Measure the angle by which a polygon turns at `corner`, in radians: in the plane z = 0 left turns
-/// are positive, in space all angles are. A leg of length 0 turns by 0.
-pub fn turning_angle(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
+/// Measure the angle by which a polygon turns at `corner`, in radians: of a `planar` polygon, in the plane z = 0, left
+/// turns are positive; of one in space all angles are, also where it has three vertices in that plane. A leg of length 0
+/// turns by 0.
+pub fn turning_angle(before: DVec3, corner: DVec3, after: DVec3, planar: bool) -> f64 {
     let angle = angle_between(corner - before, after - corner);
-    if before.z == 0.0 && corner.z == 0.0 && after.z == 0.0 {
-        angle
-    } else {
-        angle.abs()
-    }
+    if planar { angle } else { angle.abs() }
 }
 
 /// Measure the angles by which a float polygon turns, without their signs, with the vertices where it does.
@@ -76,8 +73,8 @@ pub fn turning_angles(polygon: &FloatPolygon) -> impl Iterator<Item = (usize, f6
     };
     (0..turns).map(move |first| {
         let [before, corner, after] = [0, 1, 2].map(|it| (first + it) % count);
-        let angle = turning_angle(vertices[before], vertices[corner], vertices[after]);
-        (corner, angle.abs())
+        let [before, at, after] = [before, corner, after].map(|it| vertices[it]);
+        (corner, turning_angle(before, at, after, false))
     })
 }
 
@@ -88,14 +85,14 @@ pub fn sharpest_turn(polygon: &FloatPolygon) -> Option<(usize, f64)> {
 
 /// Compute the discrete curvature of a polygon at `corner` (paper, section 3): D₁ × D₂ / |D₁|³
 /// with the central differences D₁ = (after − before)/2 and D₂ = before − 2 corner + after.
-/// Signed in the plane z = 0; not a number where `before` and `after` coincide.
-pub fn discrete_curvature(before: DVec3, corner: DVec3, after: DVec3) -> f64 {
+/// Signed of a `planar` polygon, in the plane z = 0; not a number where `before` and `after` coincide.
+pub fn discrete_curvature(before: DVec3, corner: DVec3, after: DVec3, planar: bool) -> f64 {
     let differences = Jet {
         first: 0.5 * (after - before),
         second: before - 2.0 * corner + after,
         ..Jet::default()
     };
-    differences.curvature_of(before.z == 0.0 && corner.z == 0.0 && after.z == 0.0)
+    differences.curvature_of(planar)
 }
 
 /// Measure the angle by which a polygon in space leaves its plane along the leg from `start` to

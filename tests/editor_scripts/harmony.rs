@@ -88,7 +88,7 @@ fn strips_show_the_flow_and_where_it_is_least_even() {
     let at = plots.worst[2].expect("an extremum");
     let vertex = |index: usize| script.polygon().vertex(index);
     let index = at.x as usize;
-    let bend = discrete_curvature(vertex(index - 1), vertex(index), vertex(index + 1));
+    let bend = discrete_curvature(vertex(index - 1), vertex(index), vertex(index + 1), true);
     assert_eq!(at.y, bend);
     // All of them are marked on the canvas, those of one vertex together.
     let marks = uneven(&mut script);

@@ -256,8 +256,8 @@ fn harmony_figures_are_the_worst_of_all_vertices() {
             FloatPolygon::new(4, gentle.vertices().to_vec(), None, periodic).expect("valid");
         let at = |index: usize| polygon.vertex((index + count) % count);
         let leg = |index: usize| at(index).distance(at(index + 1)).ln();
-        let turn = |i: usize| turning_angle(at(i + count - 1), at(i), at(i + 1));
-        let bend = |i: usize| discrete_curvature(at(i + count - 1), at(i), at(i + 1));
+        let turn = |i: usize| turning_angle(at(i + count - 1), at(i), at(i + 1), true);
+        let bend = |i: usize| discrete_curvature(at(i + count - 1), at(i), at(i + 1), true);
         let worst = |of: &dyn Fn(usize) -> f64, vertices: std::ops::Range<usize>| {
             let figures = vertices.map(|vertex| VertexFigure {
                 value: (of(vertex + count - 1) - 2.0 * of(vertex) + of(vertex + 1)).abs(),
@@ -461,4 +461,24 @@ fn the_papers_arc_has_an_extremum_that_its_polygon_has_not() {
     assert_eq!(found.curvature.polygon, EventCounts::default());
     let flow = VertexFlow::of(&arc);
     assert_eq!(flow.curvatures.values().len(), 8);
+}
+
+#[test]
+fn a_curve_in_space_has_no_hand_where_its_vertices_lie_in_the_plane() {
+    let points = (0..10).map(|index| {
+        let (sine, cosine) = (2.8 - 0.35 * f64::from(index)).sin_cos();
+        let height = if index == 1 { 1.0 } else { 0.0 };
+        DVec3::new(20.0 * cosine, 20.0 * sine, height)
+    });
+    let points: Vec<DVec3> = points.collect();
+    let mirrored = points.iter().map(|at| DVec3::new(at.x, -at.y, at.z));
+    let of = |points| FloatPolygon::new(5, points, None, false).expect("a valid polygon");
+    let pair = [points.clone(), mirrored.collect()].map(of);
+    let [one, other] = pair.each_ref().map(VertexFlow::of);
+    assert_eq!(one.turns, other.turns);
+    assert_eq!(one.curvatures, other.curvatures);
+    let all = [one.turns.values(), one.curvatures.values()].concat();
+    assert!(all.iter().all(|value| *value > 0.0), "{all:?}");
+    let [one, other] = pair.each_ref().map(|it| harmony(it).figures);
+    assert_eq!(one, other);
 }

@@ -66,10 +66,10 @@ impl VertexFlow {
                 })
             })
         };
-        let at_corners = |value: fn(DVec3, DVec3, DVec3) -> f64| {
+        let at_corners = |value: fn(DVec3, DVec3, DVec3, bool) -> f64| {
             sequence(1, 2, &|index| {
                 let [before, at, after] = corner(index);
-                value(before, at, after)
+                value(before, at, after, !in_space)
             })
         };
         Self {
