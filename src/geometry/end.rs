@@ -8,7 +8,7 @@ use super::jet::Jet;
 use super::vector;
 
 /// One end of an open curve.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum End {
     /// The end at u = 0.
     Start,

@@ -58,6 +58,23 @@ impl Jet {
         }
     }
 
+    /// Compute the curvature vector, the derivative of the unit tangent by arc length: (C″ − (C″·t) t) / |C′|². Not
+    /// a number at a cusp.
+    pub fn curvature_vector(&self) -> DVec3 {
+        let (first, second, factor) = self.scaled();
+        let squared = first.length_squared();
+        factor * (second - second.dot(first) / squared * first) / squared
+    }
+
+    /// Compute the jet of the curve passed the other way.
+    pub fn turned(&self) -> Self {
+        Self {
+            first: -self.first,
+            third: -self.third,
+            ..*self
+        }
+    }
+
     /// Compute the slope dκ/ds of the curvature by arc length, of the signed curvature if `planar`:
     /// (|C′|² (C′ × C‴)·b − 3 (C′·C″) (C′ × C″)·b) / |C′|⁶, b the unit normal of the plane, in space
     /// that of the osculating plane. Not a number at a cusp, and in space where the curvature is 0.

@@ -4,23 +4,28 @@ use super::bridge::{BRIDGE, annotations, fault, figures, found, knuckle, remarks
 use super::crossing::new_crossing;
 use super::editable::open;
 use super::error::OperationError;
+use super::fit_piece::features;
 use super::inputs::Inputs;
+use super::join::{ALSO_WITHIN, BLENDING, WITHIN};
 use super::lists::given_count;
 use super::matches::without_match;
 use super::operands::Operands;
 use super::operation::Operation;
-use super::outcome::{Deviation, Outcome};
+use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::values::Values;
-use crate::document::{Edit, ParameterSpan};
-use crate::geometry::fairing::bridging::close;
+use crate::document::{Curve, CurveId, Edit, ParameterSpan};
+use crate::geometry::approximation::close_within;
+use crate::geometry::approximation::merging::{MergeError, joint_of};
+use crate::geometry::fairing::bends::Bends;
+use crate::geometry::fairing::bridging::{Bridged, close};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::{End, Progress};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, Progress, significant};
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
     name: "close",
     label: "Close curve",
-    help: "Join the two ends of a curve by a harmonious bridge, so that it is periodic; the curve itself stays",
+    help: "Join the ends of a curve by a harmonious bridge, or where they meet: it becomes periodic",
     inputs: Inputs::One,
     each: true,
     parameters: &[BRIDGE],
@@ -29,17 +34,129 @@ pub static OPERATION: Operation = Operation {
     run,
 };
 
+/// Bridge the ends, and keep the curve. Where they meet, or no bridge fits, a curve near it is closed instead, if there
+/// is one.
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
+    let (_, curve) = input.curve()?;
+    let count = given_count(values, &BRIDGE);
+    let is_free = count.is_none() && curve.locked_vertices.iter().next().is_none();
+    let size = BezierPolygon::from_float(&curve.polygon).size();
+    let meets = joint_of(&curve.polygon, &curve.polygon).meets(WITHIN * size);
+    let bridge = || found(close(&curve.polygon, count, progress));
+    let near = || match is_free {
+        true => closed_near(input, size, progress),
+        false => Ok(None),
+    };
+    if meets && let Some(closed) = near()? {
+        return Ok(closed);
+    }
+    let bridged = match bridge() {
+        Err(OperationError::Cancelled) => return Err(OperationError::Cancelled),
+        found => found.and_then(|found| bridged(input, &found)),
+    };
+    let is_clean = bridged.as_ref().is_ok_and(|it| it.requirements.is_empty());
+    if !is_clean
+        && !meets
+        && let Some(closed) = near()?
+    {
+        return Ok(closed);
+    }
+    bridged
+}
+
+/// The curve with a bridge between its ends.
+fn bridged(input: &Operands, found: &Bridged) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
-    let found = found(close(
-        &curve.polygon,
-        given_count(values, &BRIDGE),
-        progress,
-    ))?;
-    let document = input.document();
+    let segments = curve.polygon.segments();
+    let span = ParameterSpan {
+        old: [0.0, segments as f64],
+        new: [0.0, (segments << found.halvings[0]) as f64],
+    };
+    let mut outcome = closed(input, &found.polygon, vec![span], Deviation::Exact)?;
+    outcome.renumbered = false;
+    outcome.figures = figures(found);
+    outcome.remarks.extend(remarks(found));
+    let fault = fault(found, [&curve.polygon; 2]);
+    let knuckle = knuckle(found).filter(|_| fault.is_none());
+    outcome.warnings.extend(knuckle);
+    let crossing = new_crossing(&[&curve.polygon], &found.polygon);
+    if fault.is_some() || crossing.is_some() {
+        let failed = Requirement::Failed { left: None };
+        outcome.requirements = vec![(id, vec![failed])];
+    }
+    outcome.warnings.extend(crossing);
+    outcome
+        .warnings
+        .extend(fault.map(|fault| format!("{fault}: turn the ends towards each other")));
+    outcome.annotations = annotations(found);
+    outcome.joint = Some(found.joint);
+    Ok(outcome)
+}
+
+/// A periodic curve near the curve, with a blend between ends that are apart; `None` if there is none with nothing to
+/// warn of.
+fn closed_near(
+    input: &Operands,
+    size: f64,
+    progress: &Progress,
+) -> Result<Option<Outcome>, OperationError> {
+    let (id, curve) = input.curve()?;
+    let (tolerance, most) = (WITHIN * size, ALSO_WITHIN * size);
+    let limited = progress.unshown().limited(BLENDING);
+    let found = match close_within(&curve.polygon, tolerance, &limited) {
+        Err(MergeError::Cancelled) if !limited.is_late() => return Err(OperationError::Cancelled),
+        Err(_) => return Ok(None),
+        Ok(found) if found.deviation > most => return Ok(None),
+        Ok(found) => found,
+    };
+    let place = |u: usize| found.tracks[0].at(u as f64);
+    let segments = curve.polygon.segments();
+    let span = |u: usize| ParameterSpan {
+        old: [u as f64, u as f64 + 1.0],
+        new: [place(u), place(u + 1)],
+    };
+    let spans = (0..segments).map(span).collect();
+    let joint = [place(segments), found.polygon.segments() as f64];
+    let crossing = new_crossing(&[&curve.polygon], &found.polygon);
+    let is_knuckle = Bends::between(&found.polygon, joint).is_knuckle();
+    if crossing.is_some() || is_knuckle {
+        return Ok(None);
+    }
+    let deviation = Deviation::Measured(found.deviation);
+    let mut outcome = closed(input, &found.polygon, spans, deviation)?;
+    let limit = Requirement::Limit {
+        found: found.deviation,
+        most,
+    };
+    let [before, now] = found.extrema;
+    let requirements = features(Some(now), None).into_iter().chain([limit]);
+    outcome.requirements = vec![(id, requirements.collect())];
+    outcome.figures = vec![
+        Figure::count("vertices", "Vertices", found.polygon.vertices().len()),
+        Figure::count("extrema_before", "Curvature extrema before", before),
+        Figure::count("extrema", "Curvature extrema", now),
+    ];
+    let moved = significant(found.deviation, 3);
+    outcome.remarks.push(format!(
+        "No bridge fits between the ends: a new curve within {moved} closes them"
+    ));
+    let marks = joint.map(|at| Annotation::Point(found.polygon.point(at)));
+    outcome.annotations.extend(marks);
+    outcome.joint = Some(joint);
+    Ok(Some(outcome))
+}
+
+/// Give the curve a periodic polygon: its ends and what belongs to them go.
+fn closed(
+    input: &Operands,
+    polygon: &FloatPolygon,
+    spans: Vec<ParameterSpan>,
+    deviation: Deviation,
+) -> Result<Outcome, OperationError> {
+    let (id, curve): (CurveId, &Curve) = input.curve()?;
     let mut edits: Vec<Edit> = Vec::new();
     for end in End::BOTH {
-        edits.extend(without_match(document, id, end));
+        edits.extend(without_match(input.document(), id, end));
         let target = curve.targets.get(end).map(|_| Edit::SetTarget {
             curve: id,
             end,
@@ -47,32 +164,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         });
         edits.extend(target);
     }
-    let polygon = found.polygon.clone();
-    let segments = curve.polygon.segments();
-    let span = ParameterSpan {
-        old: [0.0, segments as f64],
-        new: [0.0, (segments << found.halvings[0]) as f64],
-    };
-    let mut outcome = Outcome::renumbered(input, polygon, vec![span], Deviation::Exact)?;
+    let mut outcome = Outcome::renumbered(input, polygon.clone(), spans, deviation)?;
     edits.append(&mut outcome.edits);
     outcome.edits = edits;
-    outcome.renumbered = false;
-    outcome.figures = figures(&found);
-    outcome.remarks.extend(remarks(&found));
-    let polygons = [&curve.polygon; 2];
-    let fault = fault(&found, polygons);
-    let knuckle = knuckle(&found).filter(|_| fault.is_none());
-    outcome.warnings.extend(knuckle);
-    let crossing = new_crossing(&[&curve.polygon], &found.polygon);
-    outcome.warnings.extend(crossing);
-    if let Some(fault) = fault {
-        let failed = Requirement::Failed { left: None };
-        outcome.requirements = vec![(id, vec![failed])];
-        outcome
-            .warnings
-            .push(format!("{fault}: move the ends apart"));
-    }
-    outcome.annotations = annotations(&found);
-    outcome.joint = Some(found.joint);
     Ok(outcome)
 }

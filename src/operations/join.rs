@@ -23,7 +23,7 @@ use super::values::Values;
 use crate::document::{Edit, EndMatch, MatchPlace};
 use crate::geometry::approximation::blend;
 use crate::geometry::approximation::merging::{
-    Joint, MergeError, Merged, Track, merge, merge_blended,
+    MergeError, Merged, Track, check_joint, joint_of, merge, merge_blended,
 };
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::bends::Bends;
@@ -83,7 +83,7 @@ pub(super) const TOLERANCE: Parameter = Parameter {
 pub(super) const WITHIN: f64 = 1e-4;
 
 /// How far a merged curve may be off where no tolerance is given, by the size: a match would move the second curve more.
-const ALSO_WITHIN: f64 = 1e-3;
+pub(super) const ALSO_WITHIN: f64 = 1e-3;
 
 const CONTINUITY: Parameter = Parameter {
     name: "continuity",
@@ -139,7 +139,7 @@ const ABOUT_AS_CLOSE: f64 = 0.1;
 
 /// The time for the search of a merged curve, and for that of a blend.
 pub(super) const MERGING: Duration = Duration::from_secs(10);
-const BLENDING: Duration = Duration::from_secs(20);
+pub(super) const BLENDING: Duration = Duration::from_secs(20);
 
 /// What is left of a match, in units of the curve's size.
 const MET: f64 = 1e-9;
@@ -306,14 +306,14 @@ impl Joining<'_> {
     fn best(&self) -> Result<Outcome, OperationError> {
         let second = self.second();
         let [left, right] = self.in_order(&self.parts[0].1.polygon, &second);
-        let joint = Joint::between(left, right);
+        let joint = joint_of(left, right);
         if joint.meets(self.tolerance) {
-            return match joint.check(self.size, self.tolerance) {
+            return match check_joint(joint, self.size, self.tolerance) {
                 Ok(()) => self.merged_or_chained(),
                 Err(_) => self.chained(),
             };
         }
-        let gap = joint.distance;
+        let gap = joint.gap;
         let (bridged, fits) = self.bridge()?;
         if fits {
             return Ok(bridged);
@@ -501,10 +501,11 @@ impl Joining<'_> {
                 .push("The merged curve has no weights".to_owned());
         }
         if deviation > tolerance {
-            let possible = rounded_up(deviation);
-            outcome
-                .remarks
-                .push(format!("A {name} within {possible} is possible"));
+            let (possible, asked) = (rounded_up(deviation), significant(tolerance, 3));
+            outcome.remarks.push(format!(
+                "A {name} within {possible} is possible, {asked} is asked for: raise “{}”",
+                TOLERANCE.label
+            ));
         }
         // Ends that meet have one place, those of a blend two.
         let mut joint = [tracks[0].at(left.segments() as f64), tracks[1].at(0.0)];
@@ -604,7 +605,7 @@ impl Joining<'_> {
         if let Some(fault) = &fault {
             outcome.requirements = failed;
             let [left, right] = self.in_order(&first.polygon, &part);
-            let other = match Joint::between(left, right).check(self.size, self.tolerance) {
+            let other = match check_joint(joint_of(left, right), self.size, self.tolerance) {
                 Ok(()) => "Merge or Chain",
                 Err(_) => "Chain",
             };
@@ -637,7 +638,7 @@ impl Joining<'_> {
         let asked = self.values.choice(&CONTINUITY, &CONTINUITIES);
         let turned = self.second();
         let [left, right] = self.in_order(&first.polygon, &turned);
-        let joint = Joint::between(left, right);
+        let joint = joint_of(left, right);
         let continuity = asked.unwrap_or(match joint.angle <= CORNER {
             true => Continuity::G1,
             false => Continuity::G0,
@@ -686,7 +687,7 @@ impl Joining<'_> {
             None => FAR,
         };
         let advice = match moved {
-            _ if moved > FAR * size && moved > FARTHER * joint.distance => {
+            _ if moved > FAR * size && moved > FARTHER * joint.gap => {
                 Some("chain up to less, or merge")
             }
             _ if moved > another * size => Some("Bridge keeps both, or join other ends"),

@@ -391,6 +391,76 @@ fn a_curve_that_is_closed_keeps_its_vertices_and_has_no_ends() {
     assert!(periodic.contains("periodic"), "{periodic}");
 }
 
+/// Curves of one segment whose ends lie apart, and a fair one with long ends.
+const ARCHES: [&[(f64, f64)]; 4] = [
+    &[
+        (0.0, 0.0),
+        (13.5, 23.38),
+        (36.75, 35.07),
+        (63.25, 35.07),
+        (86.5, 23.38),
+        (100.0, 0.0),
+    ],
+    &[
+        (0.0, 0.0),
+        (72.0, 0.0),
+        (108.0, 12.0),
+        (108.0, 28.0),
+        (72.0, 40.0),
+        (0.0, 40.0),
+    ],
+    &[
+        (0.0, 0.0),
+        (10.0, 30.0),
+        (40.0, 55.0),
+        (70.0, 50.0),
+        (95.0, 20.0),
+        (100.0, -10.0),
+    ],
+    &[
+        (-574.41, -328.66),
+        (-3.62, -57.12),
+        (-15.07, -45.66),
+        (58.48, 23.53),
+        (136.34, 48.79),
+        (149.25, 50.34),
+        (180.37, 58.29),
+        (242.08, 3.62),
+        (255.39, -6.99),
+        (1251.92, -834.13),
+    ],
+];
+
+#[test]
+fn what_closes_an_arch_goes_no_long_way_round_and_does_not_cross() {
+    let figure = |report: &Report, name: &str| {
+        let mut figures = report.figures.iter();
+        let found = figures
+            .find(|it| it.name == name)
+            .map(|it| it.value.clone());
+        match found {
+            Some(Value::Real(number)) => number,
+            other => panic!("{name}: {other:?}"),
+        }
+    };
+    for arch in ARCHES {
+        let points = arch.iter().map(|(x, y)| DVec3::new(*x, *y, 0.0)).collect();
+        let polygon = match arch.len() {
+            6 => BezierPolygon::new(5, points, None).expect("one").to_float(),
+            _ => FloatPolygon::new(5, points, None, false),
+        };
+        let polygon = polygon.expect("a polygon");
+        let [start, end] = End::BOTH.map(|end| polygon.end_jet(end).point);
+        let runner = Runner::of(polygon);
+        let report = runner.report("close", &[]);
+        let (_, curves) = runner.done("close", &[]);
+        let told = report.text();
+        let length = figure(&report, "bridge_length");
+        assert!(length <= 6.0 * start.distance(end), "{told}");
+        assert_eq!(curve_crossing(&curves[0].polygon), None, "{told}");
+    }
+}
+
 /// A straight line from one point to another.
 fn line(name: &str, from: [f64; 2], to: [f64; 2]) -> Curve {
     let [from, to] = [from, to].map(|[x, y]| DVec3::new(x, y, 0.0));
@@ -794,7 +864,8 @@ fn a_small_corner_and_a_gap_are_merged_within_the_tolerance_that_is_told() {
         let mut remarks = report.remarks.iter();
         let possible = remarks.find_map(|it| {
             let number = it.strip_prefix("A merge within ")?;
-            number.strip_suffix(" is possible")?.parse::<f64>().ok()
+            let (number, _) = number.split_once(" is possible")?;
+            number.parse::<f64>().ok()
         });
         let possible = possible.unwrap_or_else(|| panic!("{told}"));
         assert!(possible <= 0.03 * size, "{told}");
@@ -1138,4 +1209,43 @@ fn a_given_tolerance_holds_across_a_gap_too() {
         _ => false,
     };
     assert!(is_kept, "{}", report.text());
+}
+
+#[test]
+fn ends_that_meet_or_leave_a_small_gap_close_near_the_curve() {
+    // A circle of four arcs with the usual handles, and one with a gap.
+    let handle = 55.23;
+    let quarter = |turn: f64| {
+        let turned = DQuat::from_rotation_z(turn.to_radians());
+        let points = [(100.0, 0.0), (100.0, handle), (handle, 100.0), (0.0, 100.0)];
+        let points = points.map(|(x, y)| turned * DVec3::new(x, y, 0.0));
+        let bezier = BezierPolygon::new(3, points.to_vec(), None).expect("an arc");
+        Curve::new("arc", bezier.to_float().expect("a polygon"))
+    };
+    let mut document = Document::from_curves([0.0, 90.0, 180.0, 270.0].map(quarter));
+    for _ in 0..3 {
+        let (outcome, after, report) = join(&document, &[]);
+        assert!(outcome.reached, "{}", report.text());
+        document = after;
+    }
+    let whole = document.curves().next().expect("a curve").1.polygon.clone();
+    assert_eq!(document.len(), 1);
+    let gap = whole
+        .trimmed(0.0, whole.segments() as f64 - 1.0, 0)
+        .expect("a part")
+        .polygon;
+    for (open, name) in [(whole, "met"), (gap, "gap")] {
+        let runner = Runner::of(open.clone());
+        let told = runner.report("close", &[]).text();
+        let (_, curves) = runner.done("close", &[]);
+        let closed = &curves[0].polygon;
+        assert!(closed.is_periodic(), "{name}: {told}");
+        assert_eq!(curve_crossing(closed), None, "{name}: {told}");
+        // All of it is about as far from the middle.
+        let samples = (0..1000).map(|it| f64::from(it) / 1000.0 * closed.segments() as f64);
+        for u in samples {
+            let radius = closed.point(u).length();
+            assert!((radius - 100.0).abs() < 3.0, "{name}: {radius} {told}");
+        }
+    }
 }

@@ -73,12 +73,10 @@ struct Condition {
 
 impl Condition {
     fn of(jet: &Jet) -> Option<Self> {
-        let tangent = jet.tangent()?;
-        let across = jet.second - jet.second.dot(tangent) * tangent;
         Some(Self {
             point: jet.point,
-            tangent,
-            curvature: across / jet.first.length_squared(),
+            tangent: jet.tangent()?,
+            curvature: jet.curvature_vector(),
         })
     }
 }

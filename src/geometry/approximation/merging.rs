@@ -21,12 +21,10 @@ use crate::geometry::fairing::joint_correction::{Disturbance, correct_jointly};
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::fitting::{Extrema, FitError, PlaneFit, fit_plane};
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::joint::{Joint, SMOOTH};
 use crate::geometry::nearest::refined_parameter;
 use crate::geometry::progress::Progress;
 use crate::geometry::wording::significant;
-
-/// The largest angle between the tangents of curves that meet without a corner, in radians: 0.1°.
-pub const SMOOTH: f64 = 0.1 * PI / 180.0;
 
 /// The largest angle between the tangents of curves that are merged, in radians: 15°. Above it one curve with few
 /// extrema leaves both by more than a designer takes for the same shape.
@@ -61,7 +59,7 @@ const KEPT_IN_SPACE: f64 = 0.5;
 
 /// The most vertices, by those of both curves, and how many a blend may always take.
 const MOST: usize = 2;
-const MOST_BLENDED: usize = 60;
+pub(super) const SMALLEST: usize = 60;
 
 /// The least and the most samples of a blend.
 const BLEND_SAMPLES: [usize; 2] = [2 * SAMPLES, 200];
@@ -154,49 +152,32 @@ pub enum MergeError {
     Polygon(#[from] PolygonError),
 }
 
-/// How the end of an open curve meets the start of another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Joint {
-    /// The distance of the ends.
-    pub distance: f64,
-    /// The angle between the tangents, in radians; half a turn where an end has none.
-    pub angle: f64,
+/// Measure how the end of an open curve meets the start of another.
+pub fn joint_of(first: &FloatPolygon, second: &FloatPolygon) -> Joint {
+    let [end, start] = [first.end_jet(End::Finish), second.end_jet(End::Start)];
+    Joint::between(&end, &start, first.is_planar() && second.is_planar())
 }
 
-impl Joint {
-    /// Measure how the end of a curve meets the start of another.
-    pub fn between(first: &FloatPolygon, second: &FloatPolygon) -> Self {
-        let [end, start] = [first.end_jet(End::Finish), second.end_jet(End::Start)];
-        let tangents = end.tangent().zip(start.tangent());
-        Self {
-            distance: end.point.distance(start.point),
-            angle: tangents.map_or(PI, |(a, b)| a.angle_between(b)),
-        }
+/// Check that corner and gap of a joint are small enough for one curve: the gap by the size of the larger curve. Ends
+/// within the tolerance meet.
+///
+/// # Errors
+/// [`MergeError::Apart`], [`MergeError::Corner`].
+pub fn check_joint(joint: Joint, size: f64, tolerance: f64) -> Result<(), MergeError> {
+    let Joint { gap, angle, .. } = joint;
+    let most = GAP * size;
+    if gap > most {
+        return Err(MergeError::Apart {
+            distance: gap,
+            most,
+        });
     }
-
-    /// Whether the ends meet within a tolerance.
-    pub fn meets(self, tolerance: f64) -> bool {
-        self.distance <= tolerance
-    }
-
-    /// Check that corner and gap are small enough for one curve: the gap by the size of the larger curve. Ends within
-    /// the tolerance meet.
-    ///
-    /// # Errors
-    /// [`MergeError::Apart`], [`MergeError::Corner`].
-    pub fn check(self, size: f64, tolerance: f64) -> Result<(), MergeError> {
-        let Self { distance, angle } = self;
-        let most = GAP * size;
-        if distance > most {
-            return Err(MergeError::Apart { distance, most });
-        }
-        match angle <= BENT {
-            true => Ok(()),
-            false => Err(MergeError::Corner {
-                angle,
-                gap: (!self.meets(tolerance)).then_some(distance),
-            }),
-        }
+    match angle <= BENT {
+        true => Ok(()),
+        false => Err(MergeError::Corner {
+            angle,
+            gap: (!joint.meets(tolerance)).then_some(gap),
+        }),
     }
 }
 
@@ -227,8 +208,8 @@ pub fn merge(
     progress: &Progress,
 ) -> Result<Merged, MergeError> {
     let parts = open_parts(first, second)?;
-    let joint = Joint::between(first, second);
-    joint.check(first.size().max(second.size()), tolerance)?;
+    let joint = joint_of(first, second);
+    check_joint(joint, first.size().max(second.size()), tolerance)?;
     let [own, inflections] = counts_of(parts, progress)?;
     if let Some(polygon) = continued(parts) {
         let [extrema, _] = counts_of([&polygon], progress)?;
@@ -278,7 +259,7 @@ pub fn merge_blended(
     let search = Search {
         points: points_over(parts, &between),
         parts,
-        most: (MOST * vertices_of(parts)).max(MOST_BLENDED),
+        most: (MOST * vertices_of(parts)).max(SMALLEST),
         is_smooth: true,
         planar,
         // Beside a blend that bends to one side a flat end must not wave.
@@ -452,7 +433,11 @@ impl Search<'_> {
 
 /// The extrema that the joint adds: each change of sign between the slope of the curvature before it, the jump of the
 /// curvature there, and the slope behind it.
-fn added_by_joint([first, second]: [&FloatPolygon; 2], planar: bool, tolerance: f64) -> usize {
+pub(super) fn added_by_joint(
+    [first, second]: [&FloatPolygon; 2],
+    planar: bool,
+    tolerance: f64,
+) -> usize {
     let [before, behind] = [first.end_jet(End::Finish), second.end_jet(End::Start)];
     let jump = behind.curvature_of(planar) - before.curvature_of(planar);
     let size = first.size().max(second.size());
@@ -497,7 +482,7 @@ fn bends_over([first, second]: [&FloatPolygon; 2]) -> bool {
 }
 
 /// The curvature extrema and the inflections of some curves together.
-fn counts_of<const N: usize>(
+pub(super) fn counts_of<const N: usize>(
     parts: [&FloatPolygon; N],
     progress: &Progress,
 ) -> Result<[usize; 2], MergeError> {
@@ -539,12 +524,12 @@ fn points_of(parts: [&FloatPolygon; 2], tolerance: f64) -> Vec<DVec3> {
 }
 
 /// The samples of each segment of a curve that is blended.
-fn samples_of(polygon: &FloatPolygon) -> usize {
+pub(super) fn samples_of(polygon: &FloatPolygon) -> usize {
     SAMPLES.max(LEAST_SAMPLES.div_ceil(polygon.segments()))
 }
 
 /// Points along a curve, so many a segment.
-fn sampled(polygon: &FloatPolygon, samples: usize) -> Vec<DVec3> {
+pub(super) fn sampled(polygon: &FloatPolygon, samples: usize) -> Vec<DVec3> {
     let places = (0..=samples * polygon.segments()).map(|it| it as f64 / samples as f64);
     places.map(|u| polygon.point(u)).collect()
 }
@@ -609,7 +594,7 @@ fn beside(polygon: &FloatPolygon, point: DVec3, from: f64) -> f64 {
 
 impl Track {
     /// Follow a curve along another one, from a parameter of that on.
-    fn along(polygon: &FloatPolygon, curve: &FloatPolygon, from: f64) -> Self {
+    pub(super) fn along(polygon: &FloatPolygon, curve: &FloatPolygon, from: f64) -> Self {
         let last = polygon.segments() as f64;
         let mut place = from;
         let samples = 0..=TRACKED * curve.segments();

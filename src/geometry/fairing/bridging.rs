@@ -49,6 +49,12 @@ const LENGTH: f64 = 1e-3;
 /// How often the segments of both parts are halved so that a bridge fits into the gap.
 const MOST_HALVINGS: usize = 4;
 
+/// The same of a curve that is closed: the ends of one with few vertices are long.
+const MOST_HALVINGS_CLOSING: usize = 6;
+
+/// A bridge that closes a curve is looked for between finer segments while it is longer than so many times the cubic.
+const DIRECT: f64 = 2.0;
+
 /// Across a tight gap a bridge whose excess of curvature is larger is looked for between finer segments, too.
 const FINE: f64 = 1.5;
 
@@ -303,8 +309,9 @@ impl Parts {
         }
         let fits = self.fits(&whole);
         let is_plain = fits && !whole.bends.is_knuckle();
-        let is_tight = self.is_tight();
+        let (is_tight, way) = (self.is_tight(), self.way());
         let is_fine = |found: &Bridged| match is_tight {
+            _ if self.crosses(found) || self.closes && found.length > DIRECT * way => false,
             true => found.bends.excess() <= FINE,
             false => !found.bends.is_knuckle(),
         };
@@ -316,7 +323,12 @@ impl Parts {
             let found = self.halved(halvings)?.bridged(bridge, progress)?;
             let is_seamless = found.bridge.is_empty();
             let found = Bridged { halvings, ..found };
-            let milder = |best: &Bridged| found.price() < best.price();
+            let milder = |best: &Bridged| match (self.crosses(&found), self.crosses(best)) {
+                (true, false) => false,
+                (false, true) => true,
+                _ if self.closes => found.length * found.price() < best.length * best.price(),
+                _ => found.price() < best.price(),
+            };
             if is_seamless || (self.fits(&found) && best.as_ref().is_none_or(milder)) {
                 best = Some(found);
             }
@@ -338,11 +350,11 @@ impl Parts {
 
     /// How often the segments of both parts are halved, in the order of the tries.
     fn halvings(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
-        let even = match self.closes {
-            true => [0; 2],
-            false => self.even_halvings(),
+        let (even, most) = match self.closes {
+            true => ([0; 2], MOST_HALVINGS_CLOSING),
+            false => (self.even_halvings(), MOST_HALVINGS),
         };
-        let all = (0..=MOST_HALVINGS).map(move |more| even.map(|own| own + more));
+        let all = (0..=most).map(move |more| even.map(|own| own + more));
         all.filter(|halvings| *halvings != [0; 2])
     }
 
@@ -378,26 +390,18 @@ impl Parts {
         gap < 0.5 * (degree + 1.0) * (end.speed() + start.speed())
     }
 
-    /// Whether a bridge goes no long way round: it is at most three times as long as the gap and the legs |C′|/n of
-    /// the closed polygons beside it, unless it closes a curve, and across a gap of the plane that is shorter than
-    /// its n + 1 segments would like it turns by no more than the cubic between the ends and half a turn.
+    /// Whether a bridge goes no long way round: it is at most three times as long as the gap, or as the cubic between the
+    /// ends where it closes a curve, and the legs |C′|/n of the closed polygons beside it; and across a gap of the plane
+    /// that is shorter than its n + 1 segments would like it turns by no more than that cubic and half a turn.
     fn fits(&self, found: &Bridged) -> bool {
         let [end, start] = self.ends();
-        let chord = start.point - end.point;
         let (degree, speeds) = (self.first.degree() as f64, end.speed() + start.speed());
-        if !self.closes && found.length > LONG * chord.length() + speeds / degree {
+        if found.length > LONG * self.way() + speeds / degree {
             return false;
         }
         if !self.is_tight() || !self.is_planar() {
             return true;
         }
-        let slope = |jet: &Jet| chord.length() * jet.tangent().unwrap_or(DVec3::ZERO);
-        let points = [end.point, slope(&end), slope(&start), start.point];
-        let cubic = |step: usize| -> DVec3 {
-            let weights = hermite(step as f64 / PIECES as f64);
-            let terms = weights.into_iter().zip(points);
-            terms.map(|(weight, point)| weight * point).sum()
-        };
         let from = self.first.segments() as f64;
         let across = found.bridge.end as f64 - from;
         let bridge = |step: usize| {
@@ -405,7 +409,33 @@ impl Parts {
                 .polygon
                 .point(from + across * step as f64 / PIECES as f64)
         };
-        turned(bridge) - turned(cubic) < PI
+        turned(bridge) - turned(|step| self.cubic(step)) < PI
+    }
+
+    /// A point of the cubic between the ends, with their directions and slopes as long as the gap.
+    fn cubic(&self, step: usize) -> DVec3 {
+        let [end, start] = self.ends();
+        let chord = start.point - end.point;
+        let slope = |jet: &Jet| chord.length() * jet.tangent().unwrap_or(DVec3::ZERO);
+        let points = [end.point, slope(&end), slope(&start), start.point];
+        let weights = hermite(step as f64 / PIECES as f64);
+        let terms = weights.into_iter().zip(points);
+        terms.map(|(weight, point)| weight * point).sum()
+    }
+
+    /// The way that a bridge has to go: the gap, or the cubic between the ends where it closes a curve.
+    fn way(&self) -> f64 {
+        let [end, start] = self.ends();
+        let pieces = (0..PIECES).map(|step| self.cubic(step).distance(self.cubic(step + 1)));
+        match self.closes {
+            true => pieces.sum(),
+            false => end.point.distance(start.point),
+        }
+    }
+
+    /// Whether a curve is closed so that it crosses itself.
+    fn crosses(&self, found: &Bridged) -> bool {
+        self.closes && new_crossing(&[&self.first], &found.polygon).is_some()
     }
 
     /// The ends that are joined.
