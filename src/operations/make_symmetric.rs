@@ -1,5 +1,7 @@
 //! A curve that becomes its own mirror image.
 
+use glam::DVec3;
+
 use super::bridge::{self, found};
 use super::cutting::without_target;
 use super::editable::check_editable;
@@ -14,7 +16,7 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
 use crate::document::{CurveId, ParameterSpan};
-use crate::geometry::approximation::merging::{Joint, MergeError, merge};
+use crate::geometry::approximation::merging::{MergeError, check_joint, joint_of, merge};
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{
@@ -61,10 +63,13 @@ const SAMPLES: usize = 32;
 const TOUCHES: f64 = 1e-9;
 
 /// A curve that moves by more than this share of its size was hardly symmetric.
-const FAR: f64 = 0.1;
+const FAR: f64 = 0.02;
 
 /// A curve that moves by more than this share of its size is another one.
 const ANOTHER: f64 = 0.25;
+
+/// A curve whose box keeps less than this share of its smaller side is flattened: an S is its own image by half a turn.
+const FLAT: f64 = 0.5;
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
@@ -144,18 +149,31 @@ fn nearest(
     }
     curve.check_held(&symmetric)?;
     let deviation = polygon.deviation(&symmetric)?;
-    let mut outcome = Outcome::reshaped(id, symmetric, Deviation::AtMost(deviation));
     let size = BezierPolygon::from_float(polygon).size();
-    if deviation > ANOTHER * size {
+    let is_far = deviation > FAR * size;
+    let is_flat = is_far && smaller_side(&symmetric) < FLAT * smaller_side(polygon);
+    let mut outcome = Outcome::reshaped(id, symmetric, Deviation::AtMost(deviation));
+    if deviation > ANOTHER * size || is_flat {
         outcome.requirements = vec![(id, vec![Requirement::Failed { left: None }])];
     }
-    if deviation > FAR * size {
+    if is_far {
         let moved = significant(deviation, 3);
         outcome.warnings.push(format!(
             "The curve moves by up to {moved}: its halves differ much; keep one of them (--keep)"
         ));
     }
     Ok(outcome)
+}
+
+/// The smaller side of the box around samples of a planar curve; of one in space the middle one.
+fn smaller_side(polygon: &FloatPolygon) -> f64 {
+    let samples = 0..=SAMPLES * polygon.segments();
+    let samples = samples.map(|sample| polygon.point(sample as f64 / SAMPLES as f64));
+    let box_of = |[low, high]: [DVec3; 2], at: DVec3| [low.min(at), high.max(at)];
+    let [low, high] = samples.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], box_of);
+    let mut sides = (high - low).to_array();
+    sides.sort_by(f64::total_cmp);
+    sides[1]
 }
 
 /// One half of the curve, or all of a curve on one side, with its image.
@@ -173,8 +191,8 @@ fn completed(
     let (part, cut) = cut(polygon, span, OF_CUT * tolerance)?;
     let image = image(&part, mirror)?;
     let [first, second] = half.in_order(&part, &image);
-    let joint = Joint::between(first, second);
-    let whole = match joint.check(part.size(), tolerance) {
+    let joint = joint_of(first, second);
+    let whole = match check_joint(joint, part.size(), tolerance) {
         Ok(()) => merged([first, second], mirror, tolerance, progress)?,
         Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
         Err(_) => bridged([first, second], mirror, progress)?,

@@ -119,10 +119,13 @@ fn defaults_are_allowed_wherever_the_operation_can_run() {
             // The hull leaves the axis at an angle.
             let mut remarks = outcome.remarks.iter();
             let is_bent = remarks.any(|it| it.contains("meets its image at a corner of 45.0°"));
+            // An S that is its own image by half a turn would be flattened.
+            let mut warnings = outcome.warnings.iter();
+            let is_flat = warnings.any(|it| it.contains("its halves differ much"));
             assert!(
                 outcome.reached
                     || (operation.name == "between" && is_arc)
-                    || (operation.name == "make-symmetric" && is_bent),
+                    || (operation.name == "make-symmetric" && (is_bent || is_flat)),
                 "{name} {}: {:?}",
                 operation.name,
                 outcome.remarks

@@ -168,3 +168,12 @@ fn closed_curves_become_symmetric_and_halves_of_them_are_refused() {
     let refused = runner.refused("make-symmetric", &[FIRST]);
     assert!(refused.contains("cut in half"), "{refused}");
 }
+
+#[test]
+fn an_s_is_not_flattened_without_a_word() {
+    let outcome = Runner::example("s-curve").run("make-symmetric", &[]);
+    let outcome = outcome.expect("it can run");
+    assert!(!outcome.reached, "{outcome:?}");
+    let warning = outcome.warnings.first().expect("a warning");
+    assert!(warning.contains("its halves differ much"), "{warning}");
+}
