@@ -3,6 +3,7 @@
 
 mod common;
 
+use batten::analysis::{AnalysisCache, CurveJoint, Joints};
 use batten::document::{Colour, Curve, CurveId, Document, Edit, EndMatch, History, MatchPlace};
 use batten::geometry::end_correction::EndDifference;
 use batten::geometry::fairing::joint_correction::{
@@ -181,6 +182,106 @@ fn matches_are_met_at_every_level_and_points_agree() {
         }
     }
     println!("{count} matches, at most {worst:e} of the size left");
+}
+
+/// The joint of both curves of a document where the second is to follow the first.
+fn joint(document: &Document, matched: &EndMatch) -> CurveJoint {
+    let (mut analyses, mut joints) = (AnalysisCache::default(), Joints::default());
+    analyses.update(document);
+    let size = polygon(document, 0).size();
+    joints.update(document, &analyses, Some(0.1 * size));
+    let is_asked = |it: &&CurveJoint| {
+        let of = |id, end| it.ends.contains(&(id, end));
+        let MatchPlace::End(end) = matched.place else {
+            return false;
+        };
+        of(matched.source, end) && of(matched.curve, matched.end)
+    };
+    *joints.all().iter().find(is_asked).expect("a joint")
+}
+
+#[test]
+fn joints_are_as_points_show() {
+    let mut random = Random(31);
+    let flags = [false, true];
+    let ends = flags.map(|it| if it { End::Finish } else { End::Start });
+    let all = kinds().flat_map(|kind| ends.map(|end| (kind, end)));
+    let all = all.flat_map(|(kind, end)| ends.map(|place| (kind, end, place)));
+    let all: Vec<_> = all.collect();
+    let mut worst = [0.0_f64; 4];
+    for (kind, end, place) in (0..1000).map(|it| all[it % all.len()]) {
+        let count = 2 * kind.degree + 4;
+        let mut gentle = || random.gentle(kind.degree, count, kind.in_space, kind.rational);
+        let [source, follower] = [gentle(), gentle()];
+        let jet = source.end_jet(place);
+        let way = if place == end { -jet.first } else { jet.first };
+        let follower = beside(&follower, end, jet.point, way, &mut random);
+        let curves = [source, follower].map(|it| Curve::new("curve", it));
+        let document = Document::from_curves(curves);
+        let ids: Vec<_> = document.ids().collect();
+        let matched = EndMatch {
+            curve: ids[1],
+            end,
+            source: ids[0],
+            place: MatchPlace::End(place),
+            continuity: Continuity::G0,
+            reversed: place == end,
+        };
+        let found = joint(&document, &matched);
+        // Points of both curves, walked away from the joint.
+        let [before, after] = found.ends.map(|(id, end)| {
+            let polygon = polygon(&document, usize::from(id == ids[1]));
+            match end {
+                End::Start => measured(&polygon, 0.0, 1.0),
+                End::Finish => measured(&polygon, polygon.segments() as f64, -1.0),
+            }
+        });
+        // The curve before runs towards it; its curvature vector stays, and the slope of its length turns.
+        let tangent = -before.1;
+        let planar = !kind.in_space;
+        let signed = |tangent: DVec3, bend: DVec3| tangent.cross(bend).z;
+        let (curvature, slope) = match planar {
+            true => {
+                let [one, two] = [signed(tangent, before.2), signed(after.1, after.2)];
+                (two - one, two.signum() * after.3 + one.signum() * before.3)
+            }
+            false => (after.2.distance(before.2), after.3 + before.3),
+        };
+        let scale = 1.0 + before.2.length() + after.2.length();
+        let steep = scale + before.3.abs() + after.3.abs();
+        let errors = [
+            (found.joint.gap - before.0.distance(after.0)).abs() / found.size,
+            (found.joint.angle - tangent.angle_between(after.1)).abs(),
+            (found.joint.curvature - curvature).abs() / scale,
+            (found.joint.slope - slope).abs() / steep,
+        ];
+        let name = format!("{kind:?}, {end:?} to {place:?}");
+        for ((error, most), worst) in errors.iter().zip([1e-12, 1e-5, 1e-3, 1e-2]).zip(&mut worst) {
+            assert!(*error <= most, "{name}: {errors:?}");
+            *worst = worst.max(*error);
+        }
+    }
+    println!("gap, angle, curvature, slope are off by at most {worst:?}");
+}
+
+#[test]
+fn joints_of_matched_ends_have_the_level_of_the_match() {
+    for (name, document, matched) in cases() {
+        if matches!(matched.place, MatchPlace::Parameter(_)) {
+            continue;
+        }
+        let before = joint(&document, &matched);
+        let follower = before.ends.iter().position(|it| it.0 == matched.curve);
+        let follower = follower.expect("the follower");
+        let edits = before.matching(&document, follower, matched.continuity);
+        assert_eq!(edits, [Edit::SetMatch(matched)], "{name}");
+        let document = document.edited(edits).expect("a match");
+        let after = joint(&document, &matched);
+        assert!(
+            after.continuity >= Some(matched.continuity),
+            "{name}: {after:?}"
+        );
+    }
 }
 
 #[test]

@@ -6,6 +6,20 @@ use crate::analysis::item::Item;
 use crate::geometry::distance::{DistanceError, SideDeviation, Whisker};
 use crate::geometry::{ParametricCurve, Progress};
 
+/// The columns of the table.
+const TABLE: [&str; 10] = [
+    "side",
+    "at",
+    "nearest at",
+    "distance",
+    "x",
+    "y",
+    "z",
+    "nearest x",
+    "nearest y",
+    "nearest z",
+];
+
 /// The deviation between two curves or references: true distances, from each of them to the nearest points of the
 /// other. Points count from their side alone.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,6 +78,22 @@ impl Deviation {
         self.average(|side| side.rms * side.rms).sqrt()
     }
 
+    /// Write the whiskers as a table with tabs, a line each, those of the first side first: the side (1 or 2), the place
+    /// there (u, or the number of a point) and on the other side, the distance, and both points.
+    pub fn table(&self) -> String {
+        let mut text = TABLE.join("\t");
+        for (number, side) in self.sides.iter().enumerate() {
+            for whisker in side.iter().flat_map(|side| &side.whiskers) {
+                let [one, other] = whisker.places.map(|place| place.to_array());
+                let numbers = [whisker.at, whisker.nearest_at, whisker.distance()];
+                let numbers = numbers.into_iter().chain(one).chain(other);
+                let cells = numbers.map(|number| format!("\t{number:?}"));
+                text += &format!("\n{}{}", number + 1, cells.collect::<String>());
+            }
+        }
+        text + "\n"
+    }
+
     fn average(&self, value: impl Fn(&SideDeviation) -> f64) -> f64 {
         let sides = self.sides.iter().flatten();
         let (sum, extent) = sides.fold((0.0, 0.0), |(sum, extent), side| {
@@ -103,6 +133,33 @@ mod tests {
         let points = [(0.0, y), (1.0, y), (2.0, y)];
         let polygon = FloatPolygon::planar(2, &points).expect("a polygon");
         Item::Curve(Arc::new(Curve::new("line".to_owned(), polygon)))
+    }
+
+    #[test]
+    fn the_table_has_each_whisker_to_the_bit() {
+        let slope = [(0.0, 0.1), (1.0, 0.7), (2.0, 1.3)];
+        let slope = FloatPolygon::planar(2, &slope).expect("a polygon");
+        let slope = Item::Curve(Arc::new(Curve::new("slope".to_owned(), slope)));
+        let measured = Deviation::measure([&line(0.0), &slope], &Progress::default());
+        let measured = measured.expect("curves have points").expect("two curves");
+        let table = measured.table();
+        let mut lines = table.lines();
+        assert_eq!(lines.next(), Some(TABLE.join("\t").as_str()));
+        let mut sides = [0, 0];
+        for (line, whisker) in lines.by_ref().zip(measured.whiskers()) {
+            let numbers: Result<Vec<f64>, _> = line.split('\t').map(str::parse).collect();
+            let numbers = numbers.expect("numbers");
+            assert_eq!(numbers.len(), TABLE.len());
+            assert_eq!(numbers[3], whisker.distance());
+            assert_eq!(numbers[4..7], whisker.places[0].to_array());
+            sides[numbers[0] as usize - 1] += 1;
+        }
+        assert_eq!(lines.next(), None);
+        let expected = measured
+            .sides
+            .each_ref()
+            .map(|side| side.as_ref().map_or(0, |side| side.whiskers.len()));
+        assert_eq!(sides, expected);
     }
 
     #[test]

@@ -34,6 +34,13 @@ pub fn deviation_ui(ui: &mut Ui, editor: &mut Editor) {
                 whisker_fields_ui(ui, scale, &mut whiskers);
             });
             limit_ui(ui, deviation, &mut whiskers);
+            let copy = ui.button("Copy table");
+            if copy
+                .on_hover_text("Copy every whisker as a table with tabs")
+                .clicked()
+            {
+                ui.copy_text(deviation.table());
+            }
         }
         None => drop(widgets::note(
             ui,

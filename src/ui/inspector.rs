@@ -10,7 +10,9 @@ use super::formula_fields::FormulaFields;
 use super::harmony_list::harmony_list_ui;
 use super::item_fields::{colour_ui, set_degree, state_ui};
 use super::items_panel::ItemsPanel;
+use super::joint_list::joint_list_ui;
 use super::keyboard::{self, Typing};
+use super::move_fields::MoveFields;
 use super::number_field::NumberField;
 use super::reference_panel;
 use super::theme::{ROW, STEP, Tokens};
@@ -28,6 +30,7 @@ pub struct Inspector {
     typed: Option<(CurveId, Text, String)>,
     formulas: FormulaFields,
     several: ItemsPanel,
+    movement: MoveFields,
 }
 
 /// A field of text.
@@ -74,12 +77,14 @@ impl Inspector {
             let mut items = Item::all(editor);
             items.retain(|item| item.selected);
             self.several.show(ui, editor, &items);
-            return document_section_ui(ui, editor, false);
+            document_section_ui(ui, editor, false);
+            return joints_ui(ui, editor);
         }
         let Some(item) = Item::active(editor) else {
             let text = "Draw or select a curve to see its degree, properties and features.";
             widgets::note(ui, text);
-            return document_section_ui(ui, editor, true);
+            document_section_ui(ui, editor, true);
+            return joints_ui(ui, editor);
         };
         let (id, document) = (item.id, editor.document());
         let (curve, reference) = (document.curve(id).cloned(), document.reference(id).cloned());
@@ -117,7 +122,13 @@ impl Inspector {
             }
             deviation_ui(ui, editor);
         });
+        let in_space = editor.sight().is_planar(id) == Some(false);
+        let heading = "Move by numbers";
+        widgets::section(ui, heading, false, |ui| {
+            self.movement.show(ui, editor, in_space)
+        });
         document_section_ui(ui, editor, false);
+        joints_ui(ui, editor);
         if curve.is_some() {
             // Its sentences come and go: nothing stands below them.
             widgets::section(ui, "Harmony", false, |ui| harmony_list_ui(ui, editor));
@@ -200,6 +211,12 @@ fn document_section_ui(ui: &mut Ui, editor: &mut Editor, open: bool) {
     });
 }
 
+/// The joints of the selected items, or of the document. They come and go while a curve is dragged: nothing but
+/// figures stands below them.
+fn joints_ui(ui: &mut Ui, editor: &mut Editor) {
+    widgets::section(ui, "Joints", false, |ui| joint_list_ui(ui, editor));
+}
+
 fn unit_ui(ui: &mut Ui, editor: &mut Editor) {
     let all = [None].into_iter().chain(LengthUnit::ALL.map(Some));
     let all = all.map(|unit| (unit, unit.map_or("none", LengthUnit::name).to_owned()));
@@ -224,7 +241,8 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
     let lower = step(ui, Icon::Minus, degree.saturating_sub(1), help, degree > 1);
     let field = NumberField::new("Degree", degree as f64, degree.to_string());
     let typed = field.width(48.0).range(1.0..=most as f64).typed(ui);
-    let help = "Keep the polygon; the curve becomes smoother (Elevate degree keeps the curve)";
+    let help =
+        "Keep the polygon, change the curve; Elevate degree with a tolerance keeps the curve";
     let raised = step(ui, Icon::Plus, degree + 1, help, degree < MAX_DEGREE);
     if let Some(degree) = lower.or(typed).or(raised) {
         set_degree(editor, degree);

@@ -3,18 +3,17 @@
 use std::sync::Arc;
 
 use eframe::egui::{Align2, Button, Key, TextEdit, Ui, vec2};
-use glam::DVec3;
 
 use super::curve_item::Item;
 use super::item_fields::{change_all, colour_ui, common, set_degree, state_ui};
 use super::keyboard::{self, Typing};
-use super::number_field::{NumberField, field_width};
+use super::move_fields::MoveFields;
+use super::number_field::NumberField;
 use super::theme::{ROW, STEP};
-use super::{figures, widgets};
+use super::widgets;
 use crate::document::{Curve, Edit, Group};
-use crate::editor::{Command, Editor, Transformation, told};
+use crate::editor::{Command, Editor, told};
 use crate::geometry::MAX_DEGREE;
-use crate::geometry::parameters::Quantity;
 use crate::io::counted_items;
 
 /// What stands in place of a value that is not common.
@@ -25,8 +24,7 @@ const MIXED: &str = "mixed";
 pub struct ItemsPanel {
     /// The path of a group that is being typed.
     group: Option<String>,
-    /// How far *Move* moves the items.
-    by: DVec3,
+    movement: MoveFields,
 }
 
 impl ItemsPanel {
@@ -52,7 +50,10 @@ impl ItemsPanel {
             ui.spacing_mut().item_spacing.y = 0.0;
             facts_ui(ui, &curves);
         });
-        widgets::section(ui, "Move", true, |ui| self.move_ui(ui, editor, &curves));
+        let in_space = curves.iter().any(|curve| !curve.polygon.is_planar());
+        widgets::section(ui, "Move", true, |ui| {
+            self.movement.show(ui, editor, in_space)
+        });
     }
 
     /// The path of the common group; one that is typed is the group of all.
@@ -81,29 +82,6 @@ impl ItemsPanel {
             self.group = Some(text);
         }
     }
-
-    /// Fields for a movement, and a button that makes it.
-    fn move_ui(&mut self, ui: &mut Ui, editor: &mut Editor, curves: &[Arc<Curve>]) {
-        let in_space = curves.iter().any(|curve| !curve.polygon.is_planar()) || self.by.z != 0.0;
-        let names = ["move x", "move y", "move z"];
-        let axes = if in_space { 3 } else { 2 };
-        let (width, pixel) = (field_width(ui, axes), editor.view().viewport().pixel());
-        ui.horizontal(|ui| {
-            ui.spacing_mut().item_spacing.x = STEP;
-            for (axis, name) in names.into_iter().enumerate().take(axes) {
-                let shown = figures::significant(self.by[axis], 6);
-                let field = NumberField::new(name, self.by[axis], shown).speed(pixel);
-                let field = field.width(width).quantity(Quantity::Length);
-                if let Some(by) = field.changed(ui) {
-                    self.by[axis] = by;
-                }
-            }
-        });
-        let button = ui.add_enabled(self.by != DVec3::ZERO, Button::new("Apply"));
-        if button.accessible_name("Apply movement").clicked() {
-            told(editor.transform(Transformation::Move(self.by)));
-        }
-    }
 }
 
 fn degree_ui(ui: &mut Ui, editor: &mut Editor, curves: &[Arc<Curve>]) {
@@ -112,7 +90,7 @@ fn degree_ui(ui: &mut Ui, editor: &mut Editor, curves: &[Arc<Curve>]) {
     let largest = degrees.max().unwrap_or(1);
     let field = NumberField::new("Degree of all", largest as f64, shown);
     let field = field.width(64.0).range(1.0..=MAX_DEGREE as f64);
-    let help = "Keep the polygons; Elevate degree keeps the curves";
+    let help = "Keep the polygons; Elevate degree with a tolerance keeps the curves";
     if let Some(degree) = field.help(help).typed(ui) {
         set_degree(editor, degree);
     }

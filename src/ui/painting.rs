@@ -45,6 +45,9 @@ const SMALL_EVOLUTE: f32 = 4.0;
 /// The radius of the circle round a vertex where the flow is least even.
 const EXTREME: f32 = 9.0;
 
+/// The radius of the mark of a joint of curves.
+const JOINT: f32 = 6.0;
+
 /// The radius of an operation's handle.
 const HANDLE: f32 = 6.5;
 
@@ -289,21 +292,23 @@ impl Brush<'_> {
         }
     }
 
-    /// Mark a vertex with a remark on its free side, if it has one.
-    fn extreme(&self, at: DVec2, text: &str) {
+    /// Mark a place by a ring, with a remark on its free side, if it has one.
+    fn ringed(&self, at: DVec2, radius: f32, text: &str, colour: Color32) {
         let Some(at) = self.screen.point(at) else {
             return;
         };
-        let colour = self.tokens.warning;
         self.painter
-            .circle_stroke(at, EXTREME, Stroke::new(1.5, colour));
+            .circle_stroke(at, radius, Stroke::new(1.5, colour));
+        if text.is_empty() {
+            return;
+        }
         let font = theme::small_font();
         let size = labels::size(self.painter, text, font.clone());
         let sides = [
-            (Align2::LEFT_BOTTOM, vec2(EXTREME, -EXTREME)),
-            (Align2::RIGHT_BOTTOM, vec2(-EXTREME, -EXTREME)),
-            (Align2::LEFT_TOP, vec2(EXTREME, EXTREME)),
-            (Align2::RIGHT_TOP, vec2(-EXTREME, EXTREME)),
+            (Align2::LEFT_BOTTOM, vec2(radius, -radius)),
+            (Align2::RIGHT_BOTTOM, vec2(-radius, -radius)),
+            (Align2::LEFT_TOP, vec2(radius, radius)),
+            (Align2::RIGHT_TOP, vec2(-radius, radius)),
         ];
         let boxes = sides.map(|(align, by)| align.anchor_size(at + by, size));
         if let Some(free) = boxes.into_iter().find(|rect| self.keep_text(*rect)) {
@@ -349,7 +354,10 @@ impl Brush<'_> {
                 self.text_beside(*at, &lines.join("\n"), others);
             }
             Mark::Drag(readout) => self.drag_readout(readout, others),
-            Mark::Extreme { at, text } => self.extreme(*at, text),
+            Mark::Extreme { at, text } => self.ringed(*at, EXTREME, text, tokens.warning),
+            Mark::Joint { at, name } => {
+                self.ringed(*at, JOINT, name.unwrap_or_default(), tokens.joints);
+            }
             Mark::Handle { at, marked } => {
                 let fill = match marked {
                     true => tokens.accent,

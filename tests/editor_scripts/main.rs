@@ -30,6 +30,7 @@ mod guides;
 mod harmony;
 mod importing;
 mod joining;
+mod joints;
 mod keep_shape;
 mod keeping;
 mod laws;

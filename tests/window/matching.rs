@@ -117,3 +117,43 @@ fn a_match_is_picked_shown_and_removed() {
     assert_eq!(document(&window).matches().len(), 0);
     assert_eq!(curve(&window).targets.start, None);
 }
+
+#[test]
+fn a_joint_is_listed_gone_to_and_matched() {
+    let whole = wave(20, 5);
+    let cut = |from: f64, to: f64| whole.trimmed(from, to, 0).expect("a part").polygon;
+    let [left, right] = [cut(0.0, 6.0), cut(6.0, 15.0)];
+    let moved = right.vertices().iter().map(|at| *at + 1e-4 * DVec3::Y);
+    let right = FloatPolygon::new(5, moved.collect(), None, false).expect("a polygon");
+    let curves = [Curve::new("left", left), Curve::new("right", right)];
+    let editor = Editor::with_document(Document::from_curves(curves));
+    let mut window = open_window_with(editor, 1480.0, 1300.0);
+    click(&mut window, "Joints");
+    let gap = |window: &Window| {
+        let joints = window.state().editor().sight().joints();
+        joints.all().first().expect("a joint").joint.gap
+    };
+    assert!((gap(&window) - 1e-4).abs() < 1e-12);
+    let scale = |window: &Window| window.state().editor().view().viewport().scale;
+    let before = scale(&window);
+    click(&mut window, "Joint G3: left end – right start");
+    assert!(scale(&window) > before);
+    click(&mut window, "Match left end – right start");
+    window.get_by_label("end of left follows G0");
+    click(&mut window, "start of right follows G2");
+    let matched = *document(&window).matches().next().expect("a match");
+    assert_eq!(
+        (matched.end, matched.continuity),
+        (End::Start, Continuity::G2)
+    );
+    assert!(gap(&window) < 1e-12);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(document(&window).matches().len(), 0);
+    // Without an end within the tolerance there is none.
+    window.get_by_label("Joint tolerance").click();
+    window.run();
+    strike(&mut window, "1e-5");
+    enter(&mut window);
+    assert_eq!(window.state().editor().sight().joints().all(), []);
+    window.get_by_label_contains("No ends of visible curves meet here");
+}

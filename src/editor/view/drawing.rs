@@ -56,6 +56,7 @@ impl View {
         if !overlay.measures_points {
             scene.marks.extend(sight.deviation_marks());
         }
+        scene.marks.extend(sight.joint_marks());
         sight.draw_guides(&mut scene.guides);
         scene.hover = sight.hover(overlay);
         self.scene = scene;

@@ -21,6 +21,8 @@ pub enum Layer {
     Features,
     /// Places of the selected vertex that add no feature.
     SafeRegion,
+    /// Where ends of curves meet.
+    Joints,
 }
 
 /// A row of the table of layers. Menu, strip of switches, keys, legend and settings read it.
@@ -100,6 +102,13 @@ static LAYERS: &[LayerRow] = &[
     )
     .help("Show or hide where the selected vertex can go without adding a feature")
     .off(),
+    row(
+        Layer::Joints,
+        "joints",
+        "Joints of curves",
+        ["merge", "joints"],
+    )
+    .help("Show or hide where ends of curves meet, with the continuity that holds"),
 ];
 
 /// A layer that is shown, has no sample in the legend, and the usual help.

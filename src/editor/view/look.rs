@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::document::CurveId;
+use crate::document::{CurveId, MatchPlace};
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::fitting::middle;
 use crate::editor::view::layers::Layer;
@@ -42,6 +42,8 @@ pub enum Look {
     SuitComb,
     /// Show the surroundings of a parameter of the active curve or reference, and the layer of its features.
     Around(f64),
+    /// Show the surroundings of a joint of curves, by its place in the list.
+    Joint(usize),
     /// Choose a feature of the active curve by the middle of its interval: the canvas shows the shortest
     /// moves that lose it, until the curve changes. A feature that is chosen already is no longer.
     Feature(f64),
@@ -67,6 +69,7 @@ impl View {
             Look::ResetComb => self.reset_comb(shown),
             Look::SuitComb => self.suit_comb(shown),
             Look::Around(u) => self.look_around(u, shown),
+            Look::Joint(index) => self.look_at_joint(index, shown),
             Look::Feature(u) => self.choose_feature(u, shown),
             Look::From(orientation) => self.look_from(orientation, shown),
             Look::Orbit(by) if by.is_finite() => {
@@ -103,14 +106,31 @@ impl View {
             return;
         };
         let jet = curve.jet(u.clamp(0.0, curve.pieces() as f64));
-        let reach = SURROUNDINGS * jet.speed();
-        let at = self.viewport.flatten(jet.point);
+        self.show_around(jet.point, SURROUNDINGS * jet.speed());
+        self.layers.set(Layer::Features, true);
+        self.layers.set(Layer::Curve, true);
+    }
+
+    fn look_at_joint(&mut self, index: usize, shown: Shown<'_>) {
+        let Some(joint) = self.joints.all().get(index).copied() else {
+            return;
+        };
+        let speed = |(id, end)| {
+            let shape = shown.document().shape(id)?;
+            Some(MatchPlace::End(end).jet(shape)?.speed())
+        };
+        let speeds = joint.ends.into_iter().filter_map(speed);
+        let reach = SURROUNDINGS * speeds.fold(joint.joint.gap, f64::max);
+        self.show_around(joint.point, reach);
+        self.layers.set(Layer::Joints, true);
+    }
+
+    fn show_around(&mut self, point: DVec3, reach: f64) {
+        let at = self.viewport.flatten(point);
         let mut bounds = Bounds::EMPTY;
         bounds.add(at - reach);
         bounds.add(at + reach);
         self.viewport = self.viewport.fitted(&bounds);
-        self.layers.set(Layer::Features, true);
-        self.layers.set(Layer::Curve, true);
     }
 
     fn look_from(&mut self, orientation: Orientation, shown: Shown<'_>) {

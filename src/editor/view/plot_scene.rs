@@ -6,6 +6,7 @@ use crate::analysis::{Flow, Item, LevelPlot};
 use crate::document::CurveId;
 use crate::editor::view::curve_outlines::PieceTrend;
 use crate::editor::view::feature_report::FeatureMark;
+use crate::editor::view::plot_chain::{Beside, OtherPlot};
 
 /// The kind of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +42,8 @@ pub struct PlotScene {
     pub worst: [Option<DVec2>; Flow::ALL.len()],
     /// The series of the curve or reference to compare with.
     pub compared: Option<Box<PlotScene>>,
+    /// The plots of the other selected curves and references.
+    pub others: Vec<OtherPlot>,
     /// The part of the curve, between two arc lengths, that is looked at closely and that the series
     /// are of; `None` where they are of the whole curve.
     pub part: Option<[f64; 2]>,
@@ -77,6 +80,17 @@ pub struct PlotBand {
     pub to: f64,
 }
 
+impl PlotScene {
+    /// The arc lengths between which there are curves: those of the active one, and of its chain.
+    pub fn reach(&self) -> [f64; 2] {
+        let all = self.others.iter().flat_map(|other| &other.series);
+        let all = all.map(|point| point.x).filter(|x| x.is_finite());
+        all.fold([0.0, self.extent], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        })
+    }
+}
+
 impl PlotKind {
     /// The curvature over arc length.
     pub const CURVATURE: Self = Self::Levels {
@@ -99,6 +113,8 @@ pub struct PlotSource {
     /// What it is compared with: a curve or a reference of the document, or without an id the reference that an
     /// operation was given.
     pub compared: Option<(Option<CurveId>, Item)>,
+    /// The other selected curves and references, those of a chain at their places.
+    pub others: Vec<Beside>,
     /// The part that is looked at closely.
     pub part: Option<[f64; 2]>,
 }

@@ -1,5 +1,6 @@
 //! The series of the plot, made again only when the curve or the kind of plot changes.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -7,6 +8,7 @@ use glam::DVec2;
 use crate::analysis::{CurveAnalysis, Flow, Item, LevelPlot, ReferenceAnalysis, SampledCurve};
 use crate::document::{CurveId, Document, Reference};
 use crate::editor::view::overlay::Overlay;
+use crate::editor::view::plot_chain::{Beside, OtherPlot, chain};
 use crate::editor::view::plot_scene::{PlotKind, PlotScene, PlotSource};
 use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
@@ -48,14 +50,48 @@ impl View {
     /// The inputs of the plot; `None` without an active curve, and while plots are folded.
     fn plot_source(&mut self, shown: Shown<'_>, overlay: &Overlay) -> Option<PlotSource> {
         let (id, kind) = shown.active().zip(self.plot)?;
+        let compared = self.compared_with(id, shown.document(), overlay);
+        let of_document = compared.as_ref().and_then(|(other, _)| *other);
         Some(PlotSource {
             kind,
             id,
             item: Item::of(shown.document(), id)?,
             before: overlay.before.clone().map(Item::Curve),
-            compared: self.compared_with(id, shown.document(), overlay),
+            others: self.beside(shown, (id, of_document), kind),
+            compared,
             part: self.plot_part.filter(|_| can_be_closer(kind)),
         })
+    }
+
+    /// Find the other selected curves and references that are plotted beside the active one; `compared` has a plot of its
+    /// own. In the length of each they are end to end where they meet in a chain.
+    fn beside(
+        &self,
+        shown: Shown<'_>,
+        (active, compared): (CurveId, Option<CurveId>),
+        kind: PlotKind,
+    ) -> Vec<Beside> {
+        let PlotKind::Levels { plot, normalised } = kind else {
+            return Vec::new();
+        };
+        let mut others = shown.selection.items();
+        others.retain(|id| *id != active && Some(*id) != compared);
+        let length = |id| {
+            let sampled = self.analyses.sampled(id);
+            sampled.map_or(0.0, |sampled| sampled.samples.length())
+        };
+        let placed = match normalised || plot == LevelPlot::Logarithmic {
+            true => BTreeMap::new(),
+            false => chain(self.joints.all(), active, &others, length),
+        };
+        let beside = others.into_iter().filter_map(|id| {
+            Some(Beside {
+                id,
+                item: Item::of(shown.document(), id)?,
+                placed: placed.get(&id).copied(),
+            })
+        });
+        beside.collect()
     }
 
     /// Find what the active curve is compared with: the user's choice in the document, or the reference that an
@@ -112,6 +148,18 @@ impl View {
             scene.fill(self.ghost.analysis(before), source.kind);
             plots.before = Some(Box::new(scene));
         }
+        for beside in &source.others {
+            let mut scene = PlotScene::default();
+            self.fill_of(&mut scene, beside.id, source.kind);
+            if let Some(placed) = beside.placed {
+                let is_signed = scene.planar && !is_of_torsion(source.kind);
+                placed.place(&mut scene.series, scene.length, is_signed);
+            }
+            plots.others.push(OtherPlot {
+                id: beside.id,
+                series: scene.series,
+            });
+        }
         let Some((other, _)) = &source.compared else {
             return;
         };
@@ -143,6 +191,17 @@ fn can_be_closer(kind: PlotKind) -> bool {
         PlotKind::Levels { plot, .. } => plot != LevelPlot::Logarithmic,
         PlotKind::Harmony => false,
     }
+}
+
+/// Whether a plot is that of the torsion or a level of it, which does not change with the direction.
+fn is_of_torsion(kind: PlotKind) -> bool {
+    matches!(
+        kind,
+        PlotKind::Levels {
+            plot: LevelPlot::Torsion(_),
+            ..
+        }
+    )
 }
 
 /// A number of the flow as it is shown: angles in degrees.

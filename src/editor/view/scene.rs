@@ -206,6 +206,13 @@ pub enum Mark {
         /// Whether the pointer is on it, or drags it.
         marked: bool,
     },
+    /// Where ends of curves meet.
+    Joint {
+        /// Where it is.
+        at: DVec2,
+        /// The continuity that holds, where it is written.
+        name: Option<&'static str>,
+    },
     /// A short text at a place.
     Label(DVec2, String),
     /// Distances from a curve, from the curve on.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use crate::analysis::{AnalysisCache, CurveAnalysis, Item, ReferenceAnalysis};
+use crate::analysis::{AnalysisCache, CurveAnalysis, Item, Joints, ReferenceAnalysis};
 use crate::document::{CurveId, Document};
 use crate::editor::jobs::Client;
 use crate::editor::jobs::comparing::Comparing;
@@ -33,6 +33,9 @@ pub struct View {
     pub(in crate::editor) measuring: Measuring,
     pub(in crate::editor) comparing: Comparing,
     pub(in crate::editor) guides: Guides,
+    pub(in crate::editor) joints: Joints,
+    /// The distance within which ends of curves meet; `None` for the usual one.
+    pub joint_tolerance: Option<f64>,
     pub(in crate::editor) viewport: Viewport,
     /// The point about which the view turns.
     pub(in crate::editor) target: DVec3,
@@ -93,6 +96,7 @@ pub struct View {
 pub(in crate::editor) struct Hovered {
     pub(in crate::editor) length: Option<f64>,
     pub(in crate::editor) vertex: Option<usize>,
+    pub(in crate::editor) joint: Option<usize>,
 }
 
 /// What the canvas shows at which size, and the comb that suits it.
@@ -166,7 +170,7 @@ impl View {
         self.outlines.update(&self.analyses, orientation);
     }
 
-    /// Update analyses, features, harmony and distances.
+    /// Update analyses, features, harmony, joints and distances.
     pub(in crate::editor) fn update(&mut self, shown: Shown<'_>, patience: &mut Patience) {
         self.analyse(shown.document());
         // A drag that Esc takes back leaves the comb as it was.
@@ -181,6 +185,9 @@ impl View {
                 self.measuring.measure(active, &mut self.analyses, patience);
             }
         }
+        let tolerance = self.joint_tolerance;
+        self.joints
+            .update(shown.document(), &self.analyses, tolerance);
         let pair = self.compared_pair(shown);
         self.comparing.advance(pair, patience);
     }
@@ -249,6 +256,11 @@ impl View {
     /// Mark the point at an arc length of the active curve until [`View::hover_nothing`].
     pub fn hover_length(&mut self, arc_length: f64) {
         self.hovered.length = Some(arc_length);
+    }
+
+    /// Name a joint of curves, by its place in the list, until [`View::hover_nothing`].
+    pub fn hover_joint(&mut self, index: usize) {
+        self.hovered.joint = Some(index);
     }
 
     /// Mark a vertex of the active curve until [`View::hover_nothing`].

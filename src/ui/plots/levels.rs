@@ -1,7 +1,7 @@
 //! The plots over arc length: curvature with the polygon's discrete curvature, levels of curvature and
 //! torsion; and the logarithmic curvature graph.
 
-use eframe::egui::{Checkbox, Shape, Ui};
+use eframe::egui::{Checkbox, Color32, Shape, Ui};
 use egui_plot::HoverPosition;
 use glam::DVec2;
 
@@ -13,6 +13,7 @@ use super::pane::Pane;
 use super::ticks::Scale;
 use super::{Plots, area, discrete, empty_ui, is_held};
 use crate::analysis::LevelPlot;
+use crate::document::CurveId;
 use crate::editor::{Editor, FeatureMark, PlotScene};
 use crate::ui::action::Action;
 use crate::ui::theme::{STEP, Tokens};
@@ -113,7 +114,7 @@ impl Plots {
             let name = format!("radius of curvature ρ ({units})");
             (name, Scale::Logarithmic, [f64::MIN, f64::MAX])
         } else {
-            (across_name(normalised, units), Scale::Even, [0.0, extent])
+            (across_name(normalised, units), Scale::Even, scene.reach())
         };
         let upwards = axis_name(which, scene.planar, normalised, unit);
         let axes = Axes {
@@ -151,6 +152,14 @@ impl Plots {
                 lines(plot, "compared", &other.series, tokens.joints);
                 discrete::points_compared(plot, other, &pane, tokens);
             }
+            for other in &scene.others {
+                lines(
+                    plot,
+                    "other",
+                    &other.series,
+                    colour_of(editor, other.id, tokens),
+                );
+            }
             // Where there are many dots the curve is on top.
             if dots.crowded {
                 discrete::show_dots(plot, &series, &dots, &pane, tokens);
@@ -185,13 +194,25 @@ impl Plots {
     }
 }
 
+/// The colour of a curve or a reference.
+fn colour_of(editor: &Editor, id: CurveId, tokens: &Tokens) -> Color32 {
+    let document = editor.document();
+    let (curve, reference) = (document.curve(id), document.reference(id));
+    let own = match reference {
+        Some(reference) => reference.colour,
+        None => curve.and_then(|curve| curve.colour),
+    };
+    tokens.of_item(Some(id), own, reference.is_some())
+}
+
 /// The bounds that hold the series, and dots near it; if peaks are cut off, also how far they reach.
 fn wanted(scene: &PlotScene, which: LevelPlot) -> ((DVec2, DVec2), Option<(f64, f64)>) {
     let is_curvature = which == LevelPlot::CURVATURE;
     let before = scene.before.as_deref().filter(|_| is_curvature);
     let overlaid = [before, scene.compared.as_deref()];
-    let overlaid = overlaid.into_iter().flatten();
-    let overlaid = overlaid.flat_map(|scene| &scene.series);
+    let overlaid = overlaid.into_iter().flatten().map(|scene| &scene.series);
+    let overlaid = overlaid.chain(scene.others.iter().map(|other| &other.series));
+    let overlaid = overlaid.flatten();
     let points: Vec<DVec2> = scene.series.iter().chain(overlaid).copied().collect();
     if which == LevelPlot::Logarithmic {
         return (most_of(&points), None);

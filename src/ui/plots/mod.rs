@@ -111,7 +111,9 @@ const STALE: f64 = 0.15;
 /// one that is known as long as it does.
 fn close_part(known: Option<[f64; 2]>, [from, to]: [f64; 2], length: f64) -> Option<[f64; 2]> {
     let extent = to - from;
-    if !(extent < CLOSE * length) {
+    // Beside the curve stand others of its chain.
+    let is_beside = to <= 0.0 || from >= length;
+    if is_beside || !(extent < CLOSE * length) {
         return None;
     }
     let does = |[first, last]: &[f64; 2]| {
@@ -353,7 +355,9 @@ mod tests {
     #[test]
     fn a_part_is_looked_at_closely_until_it_does_no_longer() {
         let length = 100.0;
-        assert_eq!(close_part(None, [-2.0, 102.0], length), None);
+        for seen in [[-2.0, 102.0], [-20.0, -10.0], [100.0, 110.0]] {
+            assert_eq!(close_part(None, seen, length), None);
+        }
         let part = close_part(None, [20.0, 30.0], length);
         assert_eq!(part, Some([10.0, 40.0]));
         for seen in [[11.0, 21.0], [28.0, 39.0], [20.0, 25.0]] {
