@@ -17,6 +17,7 @@ mod workspace;
 
 use std::time::Duration;
 
+pub use commands::drawing::end_drawing;
 pub use commands::{Command, CopyForm, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{

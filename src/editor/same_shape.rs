@@ -53,14 +53,11 @@ impl SameShape {
             }));
         };
         let found = polygon.refitted(degree, segments).map_err(refused)?;
-        let [before, after] = [polygon, &found.polygon].map(|polygon| {
-            let features = Features::new(polygon);
-            [Feature::CurvatureExtremum, Feature::Inflection].map(|kind| features.count(kind))
-        });
+        let features = [polygon, &found.polygon].map(counts);
         Ok(Self {
             polygon: found.polygon,
             deviation: found.deviation,
-            features: [before, after],
+            features,
         })
     }
 
@@ -73,17 +70,33 @@ impl SameShape {
                 LengthUnit::behind(unit, rounded_up(bound))
             ),
         };
-        let kinds = ["extrema", "inflections"].into_iter().enumerate();
-        let changed = kinds.filter_map(|(kind, name)| {
-            let [before, now] = self.features.map(|counts| counts[kind]);
-            (before != now).then(|| format!("{name} {before} before, {now} now"))
-        });
-        let changed: Vec<String> = changed.collect();
-        match changed.is_empty() {
-            true => moved,
-            false => format!("{moved}; {}", changed.join(", ")),
+        match change(self.features) {
+            None => moved,
+            Some(change) => format!("{moved}; {change}"),
         }
     }
+}
+
+/// Say which numbers of features differ between a polygon and another one.
+pub fn feature_change(before: &FloatPolygon, now: &FloatPolygon) -> Option<String> {
+    change([before, now].map(counts))
+}
+
+/// How many curvature extrema and inflections a curve has.
+fn counts(polygon: &FloatPolygon) -> [usize; 2] {
+    let features = Features::new(polygon);
+    [Feature::CurvatureExtremum, Feature::Inflection].map(|kind| features.count(kind))
+}
+
+/// Say which numbers of features change.
+fn change(features: [[usize; 2]; 2]) -> Option<String> {
+    let kinds = ["extrema", "inflections"].into_iter().enumerate();
+    let changed = kinds.filter_map(|(kind, name)| {
+        let [before, now] = features.map(|counts| counts[kind]);
+        (before != now).then(|| format!("{name} {before} before, {now} now"))
+    });
+    let changed: Vec<String> = changed.collect();
+    (!changed.is_empty()).then(|| changed.join(", "))
 }
 
 /// The edit that deletes vertices of a curve, by their numbers in rising order, and what it does to the curve, whose
@@ -99,7 +112,13 @@ pub fn removal(
 ) -> Result<(Edit, Option<String>), String> {
     if vertices_stay {
         let edit = deletion(id, curve, indices).map_err(advised)?;
-        return Ok((edit, None));
+        return Ok(match &edit {
+            Edit::Renumber { polygon, .. } => {
+                let told = feature_change(&curve.polygon, polygon);
+                (edit, told)
+            }
+            _ => (edit, None),
+        });
     }
     let same = SameShape::of(curve, -(indices.len() as isize))?;
     let told = same.told(unit);

@@ -32,7 +32,7 @@ use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{
     Command, CopyForm, CurvatureDisplay, DrawSettings, DrawWay, Editor, FileAnswer, Layer, MenuOf,
-    MenuSubject, Refusal, Reply, ToolKind, is_project, told,
+    MenuSubject, Refusal, Reply, ToolKind, end_drawing, is_project, told,
 };
 
 use crate::io::{DXF, ExportChoice, Exporter, PROJECT, formats};
@@ -453,7 +453,11 @@ impl App {
 
     /// Ask about unsaved changes if there are any, otherwise go on.
     fn confirm(&mut self, context: &Context, after: AfterDiscard) {
-        self.editor.interrupt();
+        end_drawing(&mut self.editor);
+        // The question says that a preview is not applied.
+        if self.editor.previewed_operation().is_none() {
+            self.editor.interrupt();
+        }
         if self.editor.workspace().is_modified() {
             self.dialog = Some(Dialog::Unsaved(after));
         } else {
@@ -661,7 +665,11 @@ impl App {
             return;
         }
         let asked = context.input(|input| input.viewport().close_requested());
-        if asked && !self.leaving && self.editor.workspace().is_modified() {
+        if !asked || self.leaving {
+            return;
+        }
+        end_drawing(&mut self.editor);
+        if self.editor.workspace().is_modified() {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
             self.dialog = Some(Dialog::Unsaved(AfterDiscard::Quit));
         }

@@ -182,6 +182,11 @@ fn unsaved_ui(ui: &mut Ui, after: &AfterDiscard, editor: &Editor) -> Option<Deci
     ui.strong("Save changes?");
     let name = name_of(editor);
     widgets::note(ui, &format!("Unsaved changes to {name} will be lost."));
+    if let Some(previewed) = editor.previewed_operation() {
+        let label = previewed.operation().label;
+        let text = format!("“{label}” is not applied, and not saved: cancel to go back to it.");
+        widgets::warning(ui, &text);
+    }
     let buttons = [
         ("Save", Decision::Save(after.clone())),
         ("Discard", Decision::Discard(after.clone())),

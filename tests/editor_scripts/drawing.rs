@@ -367,3 +367,116 @@ fn a_new_curve_is_compared_with_nothing() {
     script.editor.activate(other);
     assert_eq!(script.editor.sight().compared(), None);
 }
+
+#[test]
+fn another_tool_or_saving_ends_the_drawing_and_keeps_its_curve() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("drawn.batten");
+    let leave: [fn(&mut Script, &std::path::Path); 4] = [
+        |script, _| script.command(Command::Tool(ToolKind::Select)),
+        |script, _| script.command(Command::Tool(ToolKind::Draw)),
+        |script, path| {
+            drop(script.editor.save(path));
+        },
+        |script, path| {
+            drop(script.editor.save(path));
+            drop(script.editor.save_unless_changed());
+        },
+    ];
+    for (way, leave) in leave.into_iter().enumerate() {
+        let mut script = drawing();
+        let (before, steps) = (script.editor.document().len(), script.steps());
+        leave(&mut script, &path);
+        assert_eq!(script.editor.document().len(), before + 1, "{way}");
+        assert_eq!(script.steps(), steps + 1, "{way}");
+        if path.exists() {
+            let written = std::fs::read_to_string(&path).expect("a file");
+            let count = written.matches("\"vertices\"").count();
+            assert_eq!(count, before + 1, "{way}");
+            std::fs::remove_file(&path).expect("a file");
+        }
+        script.command(Command::Undo);
+        assert_eq!(script.editor.document().len(), before, "{way}");
+    }
+}
+
+#[test]
+fn saving_says_that_a_preview_is_not_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("previewed.batten");
+    let mut script = Script::example("arc");
+    drop(script.editor.save(&path));
+    assert!(
+        !script.message().contains("previewed"),
+        "{}",
+        script.message()
+    );
+    drop(script.try_out("elevate-degree"));
+    drop(script.editor.save(&path));
+    assert!(
+        script.message().ends_with("without what is previewed"),
+        "{}",
+        script.message()
+    );
+}
+
+#[test]
+fn the_first_point_typed_again_closes_the_curve() {
+    let mut script = Script::example("arc");
+    script.editor.begin_empty();
+    script.tool(ToolKind::Draw);
+    for text in ["-20,0", "-10,20", "10,20", "20,0", "-20,0"] {
+        script.editor.enter(text).expect("a point");
+        script.check();
+    }
+    assert!(script.polygon().is_periodic());
+    assert_eq!(script.polygon().vertices().len(), 4);
+}
+
+#[test]
+fn delete_takes_back_a_point_of_a_drawing_and_leaves_other_curves() {
+    let mut script = drawing();
+    let before = script.editor.document().len();
+    let drawn = script.scene().marks.len();
+    for _ in 0..2 {
+        script.command(Command::Delete);
+    }
+    assert_eq!(script.scene().marks.len(), drawn - 2);
+    assert_eq!(script.editor.document().len(), before);
+}
+
+#[test]
+fn a_click_that_lets_a_curve_go_on_says_how_far_it_moves_the_rest() {
+    let mut script = Script::example("s-curve");
+    script.tool(ToolKind::AddVertex);
+    let before = script.polygon();
+    let end = before.end_jet(batten::geometry::End::Finish).point;
+    let viewport = script.editor.view().viewport();
+    let at = viewport.to_screen(viewport.flatten(end)) + DVec2::new(40.0, 60.0);
+    script.move_to(at);
+    let named = |script: &mut Script| {
+        let marks = script.scene().marks.iter();
+        let texts = marks.filter_map(|mark| match mark {
+            Mark::Name(_, text) | Mark::Label(_, text) => Some(text.clone()),
+            _ => None,
+        });
+        texts.collect::<Vec<_>>().join("\n")
+    };
+    let foretold = named(&mut script);
+    assert!(foretold.contains("moves by at most"), "{foretold}");
+    script.click(at);
+    let message = script.message();
+    assert!(message.contains(&foretold), "{message} {foretold}");
+    // As far as that, and not much less.
+    let bound = foretold
+        .rsplit(' ')
+        .find_map(|word| word.parse::<f64>().ok());
+    let bound = bound.expect("a length");
+    let after = script.polygon();
+    let off = (0..=1000).map(|step| {
+        let u = f64::from(step) / 1000.0 * before.segments() as f64;
+        before.point(u).distance(after.point(u))
+    });
+    let off = off.fold(0.0, f64::max);
+    assert!(off <= bound && off >= 0.9 * bound, "{off} {bound}");
+}

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::document::{Curve, CurveId, Document, Edit, Reference};
 use crate::editor::commands::command::Command;
 use crate::editor::commands::deleting;
+use crate::editor::commands::drawing::end_drawing;
 use crate::editor::commands::items::{self, Change};
 use crate::editor::commands::locking;
 use crate::editor::commands::references::{addition, new_formula, new_reference};
@@ -157,6 +158,10 @@ impl Editor {
     /// Execute a command once nothing is previewed; `shown` is the message until then.
     fn execute_idle(&mut self, command: Command, shown: Option<Message>) -> Reply {
         match command {
+            // It takes back the last point of a drawing.
+            Command::Delete if !self.hand.tools.used().drawn().is_empty() => {
+                self.hand.tools.used_mut().undo();
+            }
             Command::Delete if self.hand.selection.is_empty() => {
                 let (selection, document) = (&self.hand.selection, self.workspace.document());
                 return match deleting::question(selection, document, shown.as_ref())? {
@@ -180,8 +185,15 @@ impl Editor {
                 select_all(&mut self.hand.selection, self.workspace.document())?;
             }
             Command::SelectNone => self.hand.selection.set_items([]),
-            Command::Tool(tool) => self.hand.use_tool(tool),
-            Command::Operation(operation) => return self.preview_operation(operation),
+            Command::Tool(tool) => {
+                let ended = end_drawing(self);
+                self.hand.use_tool(tool);
+                return Ok(ended);
+            }
+            Command::Operation(operation) => {
+                end_drawing(self);
+                return self.preview_operation(operation);
+            }
             Command::AddReference(_) | Command::AddFormula => {
                 let (label, curve) = match command {
                     Command::AddReference(kind) => (kind.label, new_reference(kind)),

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::document::{Document, Edit};
 use crate::editor::Editor;
+use crate::editor::commands::drawing::end_drawing;
 use crate::editor::jobs::edited_file::EditedFile;
 use crate::editor::jobs::file_reading::{FilesToRead, Purpose};
 use crate::editor::jobs::filing::{FileReply, FileResult, FileTask, FileWork, Filing};
@@ -85,11 +86,12 @@ impl Editor {
         self.start_file_task(FileTask::Read(FilesToRead::new(paths, Purpose::Import)))
     }
 
-    /// Save the document without the preview, which goes on.
+    /// Save the document without the preview, which goes on, and with what is being drawn.
     ///
     /// # Errors
     /// [`Refusal`] if it cannot be written.
     pub fn save(&mut self, path: &Path) -> Reply {
+        end_drawing(self);
         let document = self.workspace.settled().clone();
         self.start_file_task(self.filing.saving(path, document, None))
     }
@@ -100,6 +102,7 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if it has no file, the file was changed, or it cannot be written.
     pub fn save_unless_changed(&mut self) -> Reply {
+        end_drawing(self);
         match self.workspace.path() {
             Some(path) => {
                 let document = self.workspace.settled().clone();
@@ -110,12 +113,13 @@ impl Editor {
         }
     }
 
-    /// Export what is chosen without the preview, which goes on. The reply names what the format cannot hold. The
+    /// Export what is chosen without the preview, which goes on, and with what is being drawn. The reply names what the format cannot hold. The
     /// document keeps the choice for the next export.
     ///
     /// # Errors
     /// [`Refusal`] if it cannot be written.
     pub fn export(&mut self, path: &Path, choice: &ExportChoice) -> Reply {
+        end_drawing(self);
         self.filing.keep_export(choice.clone(), &self.workspace);
         self.start_file_task(FileTask::Export {
             path: path.to_owned(),
@@ -242,7 +246,10 @@ impl Editor {
                 if is_same && !self.filing.is_copy(&path, &self.workspace) {
                     self.workspace.mark_saved(path, document, fingerprint);
                 }
-                Ok(Note::told(text))
+                Ok(match self.document().is_same(self.workspace.settled()) {
+                    true => Note::told(text),
+                    false => Note::told(format!("{text}, without what is previewed")).warning(),
+                })
             }
             FileResult::Changed(path) => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy();

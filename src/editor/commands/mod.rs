@@ -3,6 +3,7 @@
 mod clipboard;
 pub(in crate::editor) mod command;
 mod deleting;
+pub(in crate::editor) mod drawing;
 mod end_fit;
 mod execute;
 mod files;

@@ -21,8 +21,8 @@ impl Command {
                     && editor.hand.tools.used().undo_label().is_none()
                     && editor.workspace.preview().is_none()
             }
+            Command::Delete => active || !editor.hand.tools.used().drawn().is_empty(),
             Command::Duplicate
-            | Command::Delete
             | Command::DeleteCurve
             | Command::ToggleVisible
             | Command::ToggleLocked

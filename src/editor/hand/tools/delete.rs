@@ -1,16 +1,24 @@
 //! The tool that deletes vertices.
 
+use std::cell::RefCell;
+use std::sync::Arc;
+
 use super::tool::{Context, Effect, Tool, pointer_label};
-use crate::document::{CurveId, quoted};
+use crate::document::{Curve, CurveId, quoted};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::same_shape::{LastSameShape, removal};
 use crate::editor::view::scene::Mark;
 
+/// A vertex of a curve, and what deleting it would do.
+type Told = (Arc<Curve>, usize, Option<String>);
+
 /// Delete the vertices that are clicked.
 #[derive(Debug, Default)]
 pub struct DeleteTool {
     last_shape: LastSameShape,
+    /// What deleting the vertex that was looked at last would do while the others stay.
+    last_told: RefCell<Option<Told>>,
 }
 
 impl Tool for DeleteTool {
@@ -43,14 +51,32 @@ impl Tool for DeleteTool {
 }
 
 impl DeleteTool {
-    /// What a click would do to the curve that keeps its shape, or why it cannot.
+    /// What a click would do to the curve, or why it cannot.
     fn told(&self, context: &Context) -> Option<String> {
-        let place = context
-            .place()
-            .filter(|_| !context.settings.vertices_stay)?;
-        let (curve, _) = context.hits.vertex(place)?;
-        let same = self.last_shape.of(context.document.curve(curve)?, -1);
+        let (id, index) = context.hits.vertex(context.place()?)?;
+        let curve = context.document.curve(id)?;
+        if context.settings.vertices_stay {
+            return self.told_of_plain(id, curve, index);
+        }
+        let same = self.last_shape.of(curve, -1);
         Some(same.map_or_else(|refused| refused, |same| same.told(context.document.unit())))
+    }
+
+    /// The same where the other vertices stay, found anew only for another vertex.
+    fn told_of_plain(&self, id: CurveId, curve: &Arc<Curve>, index: usize) -> Option<String> {
+        let mut last = self.last_told.borrow_mut();
+        if let Some((of, vertex, told)) = last.as_ref()
+            && Arc::ptr_eq(of, curve)
+            && *vertex == index
+        {
+            return told.clone();
+        }
+        let told = match removal(id, curve, &[index], (true, None)) {
+            Ok((_, told)) => told,
+            Err(refused) => Some(refused),
+        };
+        *last = Some((curve.clone(), index, told.clone()));
+        told
     }
 
     fn delete(&self, curve: CurveId, index: usize, context: &Context) -> Vec<Effect> {

@@ -192,8 +192,12 @@ impl DrawTool {
             }
             Err(_) if points.is_empty() => vec![Effect::Finish],
             Err(error) => {
+                let text = match points.len() {
+                    1 => "One point makes no curve: set another".to_owned(),
+                    _ => error.to_string(),
+                };
                 self.points = points;
-                vec![Effect::Say(error.to_string())]
+                vec![Effect::Say(text)]
             }
         }
     }
@@ -323,6 +327,9 @@ impl Tool for DrawTool {
         }
         self.pressed = None;
         self.discarded.clear();
+        if self.points.len() >= 3 && self.points.first() == Some(&vertex) {
+            return Ok(self.finish(true, context));
+        }
         self.points.push(vertex);
         Ok(Vec::new())
     }

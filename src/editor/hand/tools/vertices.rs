@@ -6,17 +6,18 @@ use glam::{DVec2, DVec3};
 
 use super::draw_way::DrawWay;
 use super::tool::{Context, Effect, Entry, Tool, pointer_label};
-use crate::document::{Curve, CurveId};
+use crate::document::{Curve, CurveId, Edit};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::hand::typed_point::{EntryError, TypedPoint};
 use crate::editor::polygon_edits::{continuation, inserted, insertion, replacement};
-use crate::editor::same_shape::{LastSameShape, SameShape};
+use crate::editor::same_shape::{LastSameShape, SameShape, feature_change};
 use crate::editor::view::hit::LegHit;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
-use crate::geometry::{End, FloatPolygon, PolygonError};
+use crate::geometry::expressions::LengthUnit;
+use crate::geometry::{End, FloatPolygon, PolygonError, rounded_up};
 
 /// Legs are found from this far, in screen points, when a vertex shall be inserted.
 const LEG_REACH: f64 = 24.0;
@@ -104,6 +105,42 @@ impl Adding {
             end: goes_on.then_some(end),
             pressed: None,
         })
+    }
+
+    /// What the new vertex does to the curve where it does not keep its shape: which numbers of features it changes, and
+    /// how far the curve moves that goes on from an end.
+    fn changes(&self, vertex: DVec3, unit: Option<LengthUnit>) -> Option<String> {
+        let before = &self.curve.polygon;
+        let edit = match self.end {
+            Some(end) => continuation(self.id, &self.curve, end, vertex),
+            None => insertion(self.id, &self.curve, self.index, vertex),
+        };
+        let Ok(Edit::Renumber { polygon, .. }) = edit else {
+            return None;
+        };
+        let change = feature_change(before, &polygon);
+        let moved = self.moved(vertex, unit);
+        let told: Vec<String> = moved.into_iter().chain(change).collect();
+        (!told.is_empty()).then(|| told.join("; "))
+    }
+
+    /// How far the curve moves that goes on from an end to a point.
+    fn moved(&self, to: DVec3, unit: Option<LengthUnit>) -> Option<String> {
+        let (end, before) = (self.end?, &self.curve.polygon);
+        let longer = before.continued(end, to).ok()?;
+        let count = before.vertices().len();
+        let part = match end {
+            End::Start => 1..count + 1,
+            End::Finish => 0..count,
+        };
+        let weights = longer.weights().map(|it| it[part.clone()].to_vec());
+        let vertices = longer.vertices()[part].to_vec();
+        let part = FloatPolygon::new(before.degree(), vertices, weights, false).ok()?;
+        let most = rounded_up(before.deviation(&part).ok()?);
+        Some(format!(
+            "The curve before it moves by at most {}",
+            LengthUnit::behind(unit, most)
+        ))
     }
 
     /// The vertex that is inserted into a leg.
@@ -268,9 +305,14 @@ impl NewVertexTool {
         }
     }
 
-    /// What a click into a leg would do to the curve that keeps its shape, or why it cannot.
+    /// What a click would do: into a leg to the curve that keeps its shape, or why it cannot; beyond an end to the curve
+    /// that goes on there.
     fn told(&self, context: &Context) -> Option<String> {
-        let is_asked = self.place == NewVertex::IntoLeg && self.dragged.is_none();
+        if self.place == NewVertex::AtEnd {
+            let (adding, vertex) = self.planned(context)?;
+            return adding.moved(vertex, context.document.unit());
+        }
+        let is_asked = self.dragged.is_none();
         let place = context
             .place()
             .filter(|_| is_asked && !context.settings.vertices_stay)?;
@@ -344,7 +386,12 @@ impl Tool for NewVertexTool {
             Gesture::Click(_) => {
                 effects.push(Effect::Commit);
                 let same = adding.same.as_ref();
-                effects.extend(same.map(|it| Effect::Say(it.told(context.document.unit()))));
+                let unit = context.document.unit();
+                let told = match same {
+                    Some(same) => Some(same.told(unit)),
+                    None => adding.changes(vertex, unit),
+                };
+                effects.extend(told.map(Effect::Say));
             }
             _ => {
                 let pressed = adding.same.as_ref().map(|_| context.model(place));
