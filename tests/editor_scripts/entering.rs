@@ -435,3 +435,38 @@ fn the_view_follows_what_is_typed() {
     assert!(in_sight(&script, DVec2::new(5000.0, 7000.0)));
     assert!(script.editor.view().viewport().scale < before.scale);
 }
+
+#[test]
+fn a_figure_typed_digit_by_digit_turns_about_the_pivot_that_is_shown() {
+    for (tool, text) in [
+        (ToolKind::Rotate, "30"),
+        (ToolKind::Rotate, "-180"),
+        (ToolKind::Scale, "0.5"),
+    ] {
+        let mut script = Script::example("s-curve");
+        script.tool(tool);
+        let pivot = |script: &Script| {
+            let pivot = script.editor.hand().pivot(&script.editor.context());
+            pivot.expect("a pivot")
+        };
+        let (shown, before) = (pivot(&script), script.polygon());
+        for length in 1..=text.len() {
+            script.editor.type_entry(&text[..length]);
+            script.check();
+            assert_eq!(pivot(&script), shown, "{text}");
+        }
+        enter(&mut script, text);
+        assert_eq!(pivot(&script), shown, "{text}");
+        let figure: f64 = text.parse().expect("a number");
+        let size = before.size();
+        for (index, vertex) in before.vertices().iter().enumerate() {
+            let from = vertex.truncate() - shown;
+            let expected = match tool {
+                ToolKind::Rotate => DVec2::from_angle(figure.to_radians()).rotate(from),
+                _ => figure * from,
+            };
+            let found = script.polygon().vertex(index).truncate() - shown;
+            assert!(found.distance(expected) <= NEAR * size, "{text}: {index}");
+        }
+    }
+}

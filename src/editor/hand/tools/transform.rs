@@ -240,6 +240,9 @@ impl Tool for TransformTool {
         let Some((typed, pivot)) = typed.zip(pivot_of(put, context)) else {
             return effects;
         };
+        // The middle of what is previewed lies elsewhere.
+        let turned = Some((pivot, context.selection.clone()));
+        effects.push(context.set(|settings| settings.turned = turned));
         let taken = Transformed::of(context);
         effects.push(Effect::Begin(taken.label_of(typed)));
         effects.push(Effect::preview(taken.edits(typed, pivot, context.viewport)));
