@@ -67,7 +67,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     };
     Ok(Outcome {
         remarks: vec![format!(
-            "The polygon stays; {another} degree keeps the curve"
+            "The polygon stays, the curve changes; {another} degree with a tolerance keeps the curve"
         )],
         edits: vec![Edit::Renumber {
             curve: id,

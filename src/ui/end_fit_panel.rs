@@ -376,7 +376,7 @@ fn outcome_ui(ui: &mut Ui, report: &EndFitReport) {
     }
     if bends(report) && !report.is_met() {
         widgets::note(ui, BENDS);
-    } else if !report.within {
+    } else if is_ready(report) && !report.within {
         overlap_ui(ui, report.overlap);
     }
 }

@@ -96,11 +96,10 @@ impl OperationFields {
                 ui.add(Label::new(text.font(theme::small_font())).wrap());
             });
         };
-        let value = in_progress.values().get(parameter);
-        let is_empty = parameter.text(value).is_empty();
         let room = ui.available_width() - label - gap;
         let hint = hint_of(in_progress, parameter);
-        if is_empty && !fits(ui, hint, room) {
+        // It stays while there is a value: nothing below moves when one is typed.
+        if !fits(ui, hint, room) {
             let text = format!("empty: {hint}");
             below(ui, RichText::new(text).color(Tokens::of(ui).faint_text));
         }

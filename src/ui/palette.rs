@@ -11,7 +11,7 @@ use super::action::Action;
 use super::menu_item::beside;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::{icons, widgets};
-use crate::editor::Editor;
+use crate::editor::{Command, Editor};
 
 const WIDTH: f32 = 440.0;
 
@@ -194,9 +194,11 @@ fn scored(all: &[Action], typed: &str, text: Text, kind: AtomKind) -> Vec<Action
             let label = action.label();
             let words = text(action);
             let score = pattern.score(Utf32Str::new(&words, &mut buffer), &mut matcher)?;
-            // Of two that match as well, what works on the document is meant, then the shorter name.
+            // Of two that match as well, what works on the document is meant, operations first, then the shorter name.
             let is_example = matches!(action, Action::OpenExample(_));
-            Some(((std::cmp::Reverse(score), is_example, label.len()), action))
+            let is_other = !matches!(action, Action::Command(Command::Operation(_)));
+            let rank = (std::cmp::Reverse(score), is_example, is_other, label.len());
+            Some((rank, action))
         })
         .collect();
     scored.sort_by_key(|(rank, _)| *rank);

@@ -66,7 +66,8 @@ fn other_vertices_are_not_locked_and_the_report_says_so() {
     }
     let (outcome, curves) = runner("hull", &[1, 4, 7]).done("reinterpret-degree", &[]);
     assert_eq!(locks(&curves[0]), [1, 4, 7]);
-    let stays = "The polygon stays; Elevate degree keeps the curve";
+    let stays =
+        "The polygon stays, the curve changes; Elevate degree with a tolerance keeps the curve";
     assert_eq!(outcome.remarks, [stays]);
 }
 

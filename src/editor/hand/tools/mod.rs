@@ -163,7 +163,7 @@ static TOOLS: &[ToolRow] = &[
         .made_by(|| Box::new(MeasureTool::default()))
         .starting_group(),
     row(ToolKind::EndFit, 'e', "End fit", "goal")
-        .help("Correct an end point and end tangent by the seven steps")
+        .help("Correct ends by the seven steps, or match them to other curves")
         .made_by(|| Box::new(EndFitTool::default()))
         .with_panel(),
 ];
