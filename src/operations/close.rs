@@ -19,7 +19,13 @@ use crate::geometry::approximation::merging::{MergeError, joint_of};
 use crate::geometry::fairing::bends::Bends;
 use crate::geometry::fairing::bridging::{Bridged, close};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::{BezierPolygon, End, FloatPolygon, Progress, significant};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, Progress, largest_curvature, significant};
+
+/// Across a gap of at most this share of its size a curve that is closed near itself may move by as much as the gap.
+const SMALL: f64 = 0.01;
+
+/// A new curve that bends so many times as sharply as the curve is no use.
+const SHARPER: f64 = 4.0;
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
@@ -101,7 +107,9 @@ fn closed_near(
     progress: &Progress,
 ) -> Result<Option<Outcome>, OperationError> {
     let (id, curve) = input.curve()?;
-    let (tolerance, most) = (WITHIN * size, ALSO_WITHIN * size);
+    let gap = joint_of(&curve.polygon, &curve.polygon).gap;
+    let moved = if gap <= SMALL * size { gap } else { 0.0 };
+    let (tolerance, most) = (WITHIN * size, moved.max(ALSO_WITHIN * size));
     let limited = progress.unshown().limited(BLENDING);
     let found = match close_within(&curve.polygon, tolerance, &limited) {
         Err(MergeError::Cancelled) if !limited.is_late() => return Err(OperationError::Cancelled),
@@ -119,7 +127,12 @@ fn closed_near(
     let joint = [place(segments), found.polygon.segments() as f64];
     let crossing = new_crossing(&[&curve.polygon], &found.polygon);
     let is_knuckle = Bends::between(&found.polygon, joint).is_knuckle();
-    if crossing.is_some() || is_knuckle {
+    let [was, now] = [&curve.polygon, &found.polygon].map(|polygon| {
+        let whole = [0.0, polygon.segments() as f64];
+        size * largest_curvature(polygon, whole)
+    });
+    let is_sharper = now > SHARPER * was.max(1.0);
+    if crossing.is_some() || is_knuckle || is_sharper || found.waves > 0 {
         return Ok(None);
     }
     let deviation = Deviation::Measured(found.deviation);

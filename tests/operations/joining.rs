@@ -7,7 +7,9 @@ use batten::geometry::approximation::blend;
 use batten::geometry::approximation::merging::merge_blended;
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::features::{Feature, Features};
-use batten::geometry::{BezierPolygon, Continuity, End, FloatPolygon, Progress, curve_crossing};
+use batten::geometry::{
+    BezierPolygon, ClampedPolygon, Continuity, End, FloatPolygon, Progress, curve_crossing,
+};
 use batten::operations::{Deviation, Operands, Outcome, Report, Value};
 use glam::{DQuat, DVec3};
 use serde_json::{Value as Json, json};
@@ -1247,5 +1249,50 @@ fn ends_that_meet_or_leave_a_small_gap_close_near_the_curve() {
             let radius = closed.point(u).length();
             assert!((radius - 100.0).abs() < 3.0, "{name}: {radius} {told}");
         }
+    }
+}
+
+#[test]
+fn a_small_gap_is_closed_without_a_kink_or_not_at_all() {
+    let between = [
+        (40.0, 0.0),
+        (80.0, 0.0),
+        (70.0, 50.0),
+        (0.0, 70.0),
+        (-60.0, 50.0),
+        (-50.0, 0.0),
+        (-30.0, 0.0),
+    ];
+    let gaps = [
+        ((0.1, 0.0), (0.0, 0.04), true),
+        ((1.0, 0.0), (0.0, 0.1), true),
+        ((1.0, 0.0), (0.0, 0.4), false),
+        ((5.0, 0.0), (0.0, 0.0), true),
+    ];
+    for (start, end, must_close) in gaps {
+        let points = [&[start], &between[..], &[end]].concat();
+        let points = points.iter().map(|(x, y)| DVec3::new(*x, *y, 0.0));
+        let clamped = ClampedPolygon::new(3, points.collect(), None).expect("a polygon");
+        let open = clamped.to_float().expect("a polygon");
+        let runner = Runner::of(open.clone());
+        let outcome = runner.run("close", &[]).expect("it can run");
+        let told = runner.report("close", &[]).text();
+        assert!(outcome.reached || !must_close, "{start:?}: {told}");
+        if !outcome.reached {
+            continue;
+        }
+        let after = outcome.applied_to(runner.input.document()).expect("edits");
+        let closed = &after.curves().next().expect("a curve").1.polygon;
+        let sharpest = |polygon: &FloatPolygon| {
+            let samples = (0..=4000).map(|it| f64::from(it) / 4000.0 * polygon.segments() as f64);
+            samples
+                .map(|u| polygon.jet(u).curvature())
+                .fold(0.0, f64::max)
+        };
+        assert!(
+            sharpest(closed) <= 4.0 * sharpest(&open),
+            "{start:?}: {told}"
+        );
+        assert_eq!(curve_crossing(closed), None, "{start:?}: {told}");
     }
 }

@@ -1,7 +1,7 @@
 //! A planar curve made periodic within a tolerance: ends that meet, but for a small corner, go over into each other, and
 //! a blend closes a gap.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::blending::blend;
 use super::merging::{
@@ -9,6 +9,7 @@ use super::merging::{
     samples_of,
 };
 use crate::geometry::distance::SideDeviation;
+use crate::geometry::end::End;
 use crate::geometry::fitting::{Extrema, FitError, PlaneFit, fit_plane};
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
@@ -25,12 +26,19 @@ const SHARE: f64 = 0.5;
 /// The most vertices, by those of the curve.
 const MOST: usize = 2;
 
+/// Samples nearer to the middle of a gap than so many times its width do not count.
+const BESIDE: f64 = 2.0;
+
 /// The samples of a blend.
 const BLEND_SAMPLES: usize = 48;
 
+/// Ends that are no farther apart than this share of the size, and turn little, go over into each other.
+const SMALL: f64 = 0.01;
+
 /// Make a planar open curve periodic and without weights, within a tolerance. It has as many curvature extrema as the
 /// curve, a blend between its ends if they are apart, and the joints ask for, or a few more, proved; the deviation is
-/// that of the curve from it.
+/// that of the curve from it. Across a gap of up to 1 % of the size ends go over into each other, and move by no more
+/// than the gap; where that fails, or it is wider, the blend connects them.
 ///
 /// Where no such curve keeps the tolerance, the nearest one that was found is returned.
 ///
@@ -45,64 +53,130 @@ pub fn close_within(
     if !polygon.is_planar() {
         return Err(MergeError::NotFound);
     }
-    let [own, inflections] = counts_of([polygon], progress)?;
-    let joint = joint_of(polygon, polygon);
-    let mut points = sampled(polygon, samples_of(polygon));
-    // The ends count once.
-    points.pop();
-    let (extrema, bends, asked) = if joint.meets(tolerance) {
-        check_joint(joint, polygon.size(), tolerance)?;
+    let counts = counts_of([polygon], progress)?;
+    let (joint, size) = (joint_of(polygon, polygon), polygon.size());
+    let meets = joint.meets(tolerance);
+    let bent = check_joint(joint, size, tolerance);
+    let near = match bent.is_ok() && joint.meets(SMALL * size) {
+        true => Closing::meeting(polygon, counts, tolerance.max(joint.gap)).search(progress),
+        false => Err(MergeError::NotFound),
+    };
+    match near {
+        Ok(closed) if closed.deviation <= tolerance.max(joint.gap) => Ok(closed),
+        Err(MergeError::Cancelled) => Err(MergeError::Cancelled),
+        near if meets => bent.and(near),
+        _ => Closing::blended(polygon, counts, tolerance, progress)?.search(progress),
+    }
+}
+
+/// A search for a periodic curve.
+struct Closing<'a> {
+    polygon: &'a FloatPolygon,
+    /// What it is to be near to.
+    points: Vec<DVec3>,
+    /// The extrema and inflections of the curve.
+    counts: [usize; 2],
+    /// The least extrema that are tried.
+    extrema: usize,
+    /// The inflections that it may have beside those of the curve.
+    bends: usize,
+    /// The inflections asked for.
+    inflections: Option<usize>,
+    tolerance: f64,
+}
+
+impl<'a> Closing<'a> {
+    /// Let ends that meet, or nearly do, go over into each other: samples beside them do not count.
+    fn meeting(polygon: &'a FloatPolygon, counts: [usize; 2], tolerance: f64) -> Self {
+        let [start, end] = End::BOTH.map(|end| polygon.end_jet(end).point);
+        let (middle, gap) = (start.midpoint(end), start.distance(end));
+        let mut points = sampled(polygon, samples_of(polygon));
+        points.pop();
+        points.retain(|point| gap == 0.0 || point.distance(middle) > BESIDE * gap);
         let added = added_by_joint([polygon; 2], true, tolerance);
-        (own + added, usize::from(inflections % 2 == 1), None)
-    } else {
+        let [own, inflections] = counts;
+        Self {
+            polygon,
+            points,
+            counts,
+            extrema: own + added,
+            bends: inflections % 2,
+            inflections: (inflections % 2 == 0).then_some(inflections),
+            tolerance,
+        }
+    }
+
+    /// Connect the ends by a blend.
+    fn blended(
+        polygon: &'a FloatPolygon,
+        counts: [usize; 2],
+        tolerance: f64,
+        progress: &Progress,
+    ) -> Result<Self, MergeError> {
         let between = blend(polygon, polygon).ok_or(MergeError::NoBlend)?;
         let [blended, bends] = counts_of([&between], progress)?;
         let joints = [[polygon, &between], [&between, polygon]];
         let added = joints.map(|pair| added_by_joint(pair, true, tolerance));
+        let mut points = sampled(polygon, samples_of(polygon));
+        points.pop();
         points.extend(sampled(&between, BLEND_SAMPLES));
         points.pop();
         // Beside a blend that bends to one side a flat end must not wave.
-        let is_even = inflections % 2 == 0;
-        let asked = (bends == 0 && is_even).then_some(inflections);
-        let added: usize = added.into_iter().sum();
-        (own + blended + added, bends, asked)
-    };
-    let points: Vec<DVec2> = points.iter().map(|point| point.truncate()).collect();
-    let mut nearest: Option<Merged> = None;
-    for extrema in (0..TRIED).map(|more| extrema + extrema % 2 + 2 * more) {
-        let wanted = PlaneFit {
-            degree: polygon.degree(),
-            periodic: true,
-            most: Some((MOST * polygon.vertices().len()).max(SMALLEST)),
-            extrema: Extrema::Exactly(extrema),
-            inflections: asked,
-            tolerance: Some(KEPT * tolerance),
-            outliers: Some(Vec::new()),
-            of_curve: true,
-            ..PlaneFit::default()
-        };
-        let found = fit_plane(&points, &wanted, &progress.hurried(SHARE));
-        if progress.is_cancelled() && !progress.is_late() {
-            return Err(MergeError::Cancelled);
-        }
-        let closed = match found {
-            Err(FitError::Cancelled) => return Err(MergeError::Cancelled),
-            Ok(found) if found.holds => found.polygon,
-            _ => continue,
-        };
-        let expected = inflections + bends;
-        let waves = counts_of([&closed], &progress.without_limit())?[1].saturating_sub(expected);
-        let closed = measured(polygon, closed, [own, extrema], &progress.without_limit())?;
-        let closed = Merged { waves, ..closed };
-        if closed.deviation <= tolerance {
-            return Ok(closed);
-        }
-        let is_nearer = |known: &Merged| closed.deviation < known.deviation;
-        if nearest.as_ref().is_none_or(is_nearer) {
-            nearest = Some(closed);
-        }
+        let [own, inflections] = counts;
+        let is_plain = bends == 0 && inflections % 2 == 0;
+        Ok(Self {
+            polygon,
+            points,
+            counts,
+            extrema: own + blended + added.into_iter().sum::<usize>(),
+            bends,
+            inflections: is_plain.then_some(inflections),
+            tolerance,
+        })
     }
-    nearest.ok_or(MergeError::NotFound)
+
+    /// The first curve within the tolerance that has one of the numbers of extrema; else the nearest one.
+    fn search(&self, progress: &Progress) -> Result<Merged, MergeError> {
+        let polygon = self.polygon;
+        let points: Vec<DVec2> = self.points.iter().map(|point| point.truncate()).collect();
+        let least = self.extrema + self.extrema % 2;
+        let mut nearest: Option<Merged> = None;
+        for extrema in (0..TRIED).map(|more| least + 2 * more) {
+            let wanted = PlaneFit {
+                degree: polygon.degree(),
+                periodic: true,
+                most: Some((MOST * polygon.vertices().len()).max(SMALLEST)),
+                extrema: Extrema::Exactly(extrema),
+                inflections: self.inflections,
+                tolerance: Some(KEPT * self.tolerance),
+                outliers: Some(Vec::new()),
+                of_curve: true,
+                ..PlaneFit::default()
+            };
+            let found = fit_plane(&points, &wanted, &progress.hurried(SHARE));
+            if progress.is_cancelled() && !progress.is_late() {
+                return Err(MergeError::Cancelled);
+            }
+            let closed = match found {
+                Err(FitError::Cancelled) => return Err(MergeError::Cancelled),
+                Ok(found) if found.holds => found.polygon,
+                _ => continue,
+            };
+            let endless = progress.without_limit();
+            let [_, after] = counts_of([&closed], &endless)?;
+            let closed = measured(polygon, closed, [self.counts[0], extrema], &endless)?;
+            let waves = after.saturating_sub(self.counts[1] + self.bends);
+            let closed = Merged { waves, ..closed };
+            if closed.deviation <= self.tolerance {
+                return Ok(closed);
+            }
+            let is_nearer = |known: &Merged| closed.deviation < known.deviation;
+            if nearest.as_ref().is_none_or(is_nearer) {
+                nearest = Some(closed);
+            }
+        }
+        nearest.ok_or(MergeError::NotFound)
+    }
 }
 
 fn measured(
