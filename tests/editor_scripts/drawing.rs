@@ -403,7 +403,7 @@ fn another_tool_or_saving_ends_the_drawing_and_keeps_its_curve() {
 #[test]
 fn saving_says_that_a_preview_is_not_saved() {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("previewed.batten");
+    let path = folder.path().join("arc.batten");
     let mut script = Script::example("arc");
     drop(script.editor.save(&path));
     assert!(
@@ -411,7 +411,9 @@ fn saving_says_that_a_preview_is_not_saved() {
         "{}",
         script.message()
     );
-    drop(script.try_out("elevate-degree"));
+    let from = script.at_vertex(3);
+    script.press(from);
+    script.move_to(from + DVec2::new(0.0, 30.0));
     drop(script.editor.save(&path));
     assert!(
         script.message().ends_with("without what is previewed"),
