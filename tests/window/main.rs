@@ -384,7 +384,7 @@ fn the_palette_finds_commands() {
 
     // What cannot be done says why, after what can, and Enter leaves the list open.
     press(&mut window, Modifiers::COMMAND, Key::P);
-    window.event(Event::Text("join".to_owned()));
+    window.event(Event::Text("fit points".to_owned()));
     window.run();
     window.get_by_label_contains("Unavailable:");
     press(&mut window, Modifiers::NONE, Key::Enter);
