@@ -6,7 +6,7 @@ use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Deviation, Figure, Outcome};
 use super::targets::{
-    SHARE_OF_SIZE, annotations, check_targets, corrected, cusp, place_of, target,
+    SHARE_OF_SIZE, annotations, check_targets, corrected, cusp, moved_with, place_of, target,
 };
 use super::values::Values;
 use super::which_end::{END, end};
@@ -48,7 +48,9 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     }
     let angle = EndDifference::between(&curve.polygon, end, &target).angle;
     let polygon = align_end(&curve.polygon, end, direction)?;
+    let warning = moved_with(&curve.polygon, end.other(), &polygon);
     let mut outcome = corrected(id, curve, polygon)?;
+    outcome.warnings.extend(warning);
     outcome.requirements = requirements;
     outcome.figures = vec![Figure::angle("rotation", "Rotation", angle)];
     outcome.annotations = annotations(curve, end);

@@ -7,7 +7,7 @@ use super::outcome::{Annotation, Deviation, Outcome};
 use crate::document::{Curve, CurveId};
 use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::fairing::requirement::{PlaceRequest, Requirement};
-use crate::geometry::{End, FloatPolygon};
+use crate::geometry::{End, FloatPolygon, significant};
 
 /// The tolerance of ends that is offered, in units of the size of the polygon.
 pub(super) const SHARE_OF_SIZE: f64 = 1e-9;
@@ -77,6 +77,23 @@ pub(super) fn corrected(
     curve.check_held(&polygon)?;
     let deviation = Deviation::AtMost(curve.polygon.deviation(&polygon)?);
     Ok(Outcome::reshaped(id, polygon, deviation))
+}
+
+/// Say how an end moves with the other one, whose terminal vertices it shares.
+pub(super) fn moved_with(before: &FloatPolygon, end: End, after: &FloatPolygon) -> Option<String> {
+    let now = after.end_jet(end);
+    let place = EndTarget::keeping(&before.end_jet(end));
+    let size = before.size();
+    let difference = EndDifference::of_jet(&now, after.is_planar(), &place);
+    if difference.residual(size) <= SHARE_OF_SIZE * size {
+        return None;
+    }
+    let moved = significant(difference.vector.length(), 3);
+    let turned = significant(difference.angle.abs().to_degrees(), 3);
+    let name = end.name();
+    Some(format!(
+        "The {name} moves by {moved} and turns by {turned}°, as both ends share vertices: “Both ends at once” keeps it"
+    ))
 }
 
 /// Annotation the target of an end, and the way to it.

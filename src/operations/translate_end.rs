@@ -5,7 +5,9 @@ use super::inputs::Inputs;
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Figure, Outcome};
-use super::targets::{SHARE_OF_SIZE, annotations, check_targets, corrected, place_of, target};
+use super::targets::{
+    SHARE_OF_SIZE, annotations, check_targets, corrected, moved_with, place_of, target,
+};
 use super::values::Values;
 use super::which_end::{END, end};
 use crate::geometry::Progress;
@@ -36,7 +38,9 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     };
     let tolerance = SHARE_OF_SIZE * polygon.size();
     let requirement = place_of(&polygon, end, place, tolerance);
+    let warning = moved_with(&curve.polygon, end.other(), &polygon);
     let mut outcome = corrected(id, curve, polygon)?;
+    outcome.warnings.extend(warning);
     outcome.requirements = vec![(id, vec![requirement])];
     outcome.figures = vec![Figure::length("translation", "Translation", way.length())];
     outcome.annotations = annotations(curve, end);

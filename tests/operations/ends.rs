@@ -311,6 +311,46 @@ fn what_cannot_be_reached_is_told_with_what_is_left() {
 }
 
 #[test]
+fn a_step_that_moves_the_other_end_too_says_so() {
+    let vertex = |index: usize| {
+        let x = 12.0 * index as f64;
+        (x, 25.0 - 0.01 * (x - 48.0) * (x - 48.0))
+    };
+    // Of degree 5, nine vertices: both ends share one of them, with ten they share none.
+    for (count, shares) in [(9, true), (10, false)] {
+        let vertices: Vec<_> = (0..count).map(vertex).collect();
+        let polygon = FloatPolygon::planar(5, &vertices).expect("a polygon");
+        let start = polygon.end_jet(End::Start);
+        let target = beside(&polygon, End::Finish, 0.05, 0.1);
+        let runner = Runner::of(polygon).with_target(End::Finish, target);
+        for operation in ["translate-end", "rotate-end"] {
+            let (outcome, curves) = runner.done(operation, &[]);
+            let moved = curves[0]
+                .polygon
+                .end_jet(End::Start)
+                .point
+                .distance(start.point);
+            let told: Vec<_> = outcome.warnings.iter().collect();
+            assert_eq!(moved > 0.0, shares, "{operation}: {moved}");
+            assert_eq!(told.len(), usize::from(shares), "{operation}: {told:?}");
+            if let [warning] = told[..] {
+                assert!(warning.starts_with("The start moves by "), "{warning}");
+                let written = warning
+                    .split(' ')
+                    .nth(4)
+                    .and_then(|it| it.parse::<f64>().ok());
+                let written = written.unwrap_or_else(|| panic!("{warning}"));
+                assert!((written / moved - 1.0).abs() < 1e-2, "{warning} {moved}");
+            }
+        }
+        // What the warning advises keeps it.
+        let (_, curves) = runner.done("correct-ends", &[]);
+        let kept = curves[0].polygon.end_jet(End::Start).point;
+        assert!(kept.distance(start.point) <= MET * curves[0].polygon.size());
+    }
+}
+
+#[test]
 fn missing_targets_and_directions_are_refused() {
     let runner = Runner::example("hull");
     for operation in ["translate-end", "rotate-end", "correct-ends"] {
