@@ -40,11 +40,6 @@ impl CurveJoint {
         self.continuity.map_or("open", Continuity::name)
     }
 
-    /// Whether an end of this curve is part of it.
-    pub fn has(&self, id: CurveId) -> bool {
-        self.ends.iter().any(|(own, _)| *own == id)
-    }
-
     /// The match that makes one of the two curves, 0 or 1, follow the other here.
     fn matched(&self, follower: usize, continuity: Continuity) -> Option<EndMatch> {
         let (curve, end) = *self.ends.get(follower)?;

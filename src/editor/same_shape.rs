@@ -114,7 +114,8 @@ pub fn removal(
         let edit = deletion(id, curve, indices).map_err(advised)?;
         return Ok(match &edit {
             Edit::Renumber { polygon, .. } => {
-                let told = feature_change(&curve.polygon, polygon);
+                let change = feature_change(&curve.polygon, polygon);
+                let told = change.map(|change| format!("Features change: {change}"));
                 (edit, told)
             }
             _ => (edit, None),

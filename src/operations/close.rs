@@ -14,15 +14,12 @@ use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::values::Values;
 use crate::document::{Curve, CurveId, Edit, ParameterSpan};
-use crate::geometry::approximation::close_within;
 use crate::geometry::approximation::merging::{MergeError, joint_of};
+use crate::geometry::approximation::{SMALL_GAP, close_within};
 use crate::geometry::fairing::bends::Bends;
 use crate::geometry::fairing::bridging::{Bridged, close};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{BezierPolygon, End, FloatPolygon, Progress, largest_curvature, significant};
-
-/// Across a gap of at most this share of its size a curve that is closed near itself may move by as much as the gap.
-const SMALL: f64 = 0.01;
 
 /// A new curve that bends so many times as sharply as the curve is no use.
 const SHARPER: f64 = 4.0;
@@ -108,7 +105,7 @@ fn closed_near(
 ) -> Result<Option<Outcome>, OperationError> {
     let (id, curve) = input.curve()?;
     let gap = joint_of(&curve.polygon, &curve.polygon).gap;
-    let moved = if gap <= SMALL * size { gap } else { 0.0 };
+    let moved = if gap <= SMALL_GAP * size { gap } else { 0.0 };
     let (tolerance, most) = (WITHIN * size, moved.max(ALSO_WITHIN * size));
     let limited = progress.unshown().limited(BLENDING);
     let found = match close_within(&curve.polygon, tolerance, &limited) {
@@ -150,9 +147,18 @@ fn closed_near(
         Figure::count("extrema", "Curvature extrema", now),
     ];
     let moved = significant(found.deviation, 3);
-    outcome.remarks.push(format!(
-        "No bridge fits between the ends: a new curve within {moved} closes them"
-    ));
+    let why = match gap <= tolerance {
+        true => "The ends meet",
+        false => "No bridge fits between the ends",
+    };
+    outcome
+        .remarks
+        .push(format!("{why}: a new curve within {moved} is closed"));
+    if curve.polygon.is_rational() {
+        outcome
+            .remarks
+            .push("The closed curve has no weights".to_owned());
+    }
     let marks = joint.map(|at| Annotation::Point(found.polygon.point(at)));
     outcome.annotations.extend(marks);
     outcome.joint = Some(joint);

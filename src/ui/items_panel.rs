@@ -51,7 +51,7 @@ impl ItemsPanel {
             facts_ui(ui, &curves);
         });
         let in_space = curves.iter().any(|curve| !curve.polygon.is_planar());
-        widgets::section(ui, "Move", true, |ui| {
+        widgets::section(ui, "Move by numbers", true, |ui| {
             self.movement.show(ui, editor, in_space)
         });
     }

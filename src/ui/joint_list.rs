@@ -34,8 +34,8 @@ const FIELD: f32 = 96.0;
 /// A button for a level in the menu of matches.
 const CELL: [f32; 2] = [40.0, ROW];
 
-/// The differences of a joint below which rounding alone lies, by its size.
-const NOISE: f64 = 1e-12;
+/// Gaps and differences of derivatives below which rounding alone lies, by the size.
+const NOISE: [f64; 2] = [1e-12, 1e-6];
 
 /// What was done with a joint of the list.
 enum Act {
@@ -184,13 +184,13 @@ fn figures_ui(ui: &Ui, row: Rect, joint: &CurveJoint) {
     let shown = |value: f64, noise: f64| widgets::above_noise(value, noise, plain).0;
     let (found, size) = (joint.joint, joint.size);
     let texts = [
-        document_unit::length(ui.ctx(), shown(found.gap, NOISE * size)),
-        match found.angle <= NOISE.sqrt() {
+        document_unit::length(ui.ctx(), shown(found.gap, NOISE[0] * size)),
+        match found.angle <= NOISE[1] {
             true => "0°".to_owned(),
             false => figures::angle(found.angle),
         },
-        shown(found.curvature, NOISE.sqrt() / size),
-        shown(found.slope, NOISE.sqrt() / (size * size)),
+        shown(found.curvature, NOISE[1] / size),
+        shown(found.slope, NOISE[1] / (size * size)),
     ];
     for (column, text) in columns(row).into_iter().zip(texts) {
         widgets::text_in(

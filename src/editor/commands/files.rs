@@ -113,8 +113,8 @@ impl Editor {
         }
     }
 
-    /// Export what is chosen without the preview, which goes on, and with what is being drawn. The reply names what the format cannot hold. The
-    /// document keeps the choice for the next export.
+    /// Export what is chosen without the preview, which goes on, and with what is being drawn. The reply names what the
+    /// format cannot hold. The document keeps the choice for the next export.
     ///
     /// # Errors
     /// [`Refusal`] if it cannot be written.

@@ -16,9 +16,14 @@ impl<'a> Sight<'a> {
 
     /// The joints that panels list, each with its number: those of the selected items, all where none is selected.
     pub fn listed_joints(self) -> impl Iterator<Item = (usize, &'a CurveJoint)> {
-        let items = self.shown.selection.items();
+        let selection = self.shown.selection;
+        let (active, is_alone) = (selection.active(), selection.has_no_item());
+        let is_taken = move |id| match is_alone {
+            true => active.is_none_or(|active| active == id),
+            false => selection.has_item(id),
+        };
         let all = self.joints().all().iter().enumerate();
-        all.filter(move |(_, joint)| items.is_empty() || items.iter().any(|id| joint.has(*id)))
+        all.filter(move |(_, joint)| joint.ends.iter().any(|(id, _)| is_taken(*id)))
     }
 
     /// Mark the joints in sight; those that panels list are named.

@@ -1,6 +1,6 @@
 //! The plots of several selected curves: over one another, or end to end where the curves meet in a chain.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 
@@ -37,6 +37,9 @@ pub struct OtherPlot {
     pub series: Vec<DVec2>,
 }
 
+/// The ends that go on from each end, with the angles.
+type Next = BTreeMap<(CurveId, End), Vec<(f64, (CurveId, End))>>;
+
 /// Place curves that meet in a chain with the active one, both ways from it. Where several go on, the one with the
 /// smallest angle does.
 pub(super) fn chain(
@@ -45,6 +48,14 @@ pub(super) fn chain(
     others: &[CurveId],
     length: impl Fn(CurveId) -> f64,
 ) -> BTreeMap<CurveId, Placed> {
+    let mut free: BTreeSet<CurveId> = others.iter().copied().collect();
+    let mut next = Next::new();
+    for joint in joints {
+        let [one, other] = joint.ends;
+        for (from, to) in [(one, other), (other, one)] {
+            next.entry(from).or_default().push((joint.joint.angle, to));
+        }
+    }
     let mut placed = BTreeMap::new();
     for way in [End::Finish, End::Start] {
         let mut at = (active, way);
@@ -52,15 +63,14 @@ pub(super) fn chain(
             End::Finish => length(active),
             End::Start => 0.0,
         };
-        while let Some((id, end)) = next(joints, at, |id| {
-            others.contains(&id) && id != active && !placed.contains_key(&id)
-        }) {
+        while let Some((id, end)) = smoothest(&next, at, &free) {
             let own = length(id);
             let start = match way {
                 End::Finish => reached,
                 End::Start => reached - own,
             };
             let turned = end == way;
+            free.remove(&id);
             placed.insert(id, Placed { start, turned });
             reached = match way {
                 End::Finish => start + own,
@@ -72,22 +82,12 @@ pub(super) fn chain(
     placed
 }
 
-/// The end of a free curve that goes on from an end.
-fn next(
-    joints: &[CurveJoint],
-    at: (CurveId, End),
-    is_free: impl Fn(CurveId) -> bool,
-) -> Option<(CurveId, End)> {
-    let here = joints.iter().filter_map(|joint| {
-        let other = match joint.ends {
-            [one, other] if one == at => other,
-            [other, one] if one == at => other,
-            _ => return None,
-        };
-        is_free(other.0).then_some((joint.joint.angle, other))
-    });
+/// The end of a free curve that goes on from an end with the smallest angle.
+fn smoothest(next: &Next, at: (CurveId, End), free: &BTreeSet<CurveId>) -> Option<(CurveId, End)> {
+    let here = next.get(&at)?.iter();
+    let here = here.filter(|(_, (id, _))| free.contains(id));
     let best = here.min_by(|one, other| one.0.total_cmp(&other.0));
-    best.map(|(_, other)| other)
+    best.map(|(_, end)| *end)
 }
 
 impl Placed {

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 
 use super::blending::blend;
 use super::merging::{
-    MergeError, Merged, SMALLEST, Track, added_by_joint, check_joint, counts_of, joint_of, sampled,
-    samples_of,
+    KEPT, MOST, MergeError, Merged, SHARE, SMALLEST, Track, added_by_joint, check_joint, counts_of,
+    joint_of, sampled, samples_of,
 };
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::end::End;
@@ -17,15 +17,6 @@ use crate::geometry::progress::Progress;
 /// How many numbers of extrema are tried, by twos: a periodic curve has an even number.
 const TRIED: usize = 3;
 
-/// The share of the tolerance that samples must keep, so that the curve between them does too.
-const KEPT: f64 = 0.9;
-
-/// The share of the time that is left for each number of extrema.
-const SHARE: f64 = 0.5;
-
-/// The most vertices, by those of the curve.
-const MOST: usize = 2;
-
 /// Samples nearer to the middle of a gap than so many times its width do not count.
 const BESIDE: f64 = 2.0;
 
@@ -33,7 +24,7 @@ const BESIDE: f64 = 2.0;
 const BLEND_SAMPLES: usize = 48;
 
 /// Ends that are no farther apart than this share of the size, and turn little, go over into each other.
-const SMALL: f64 = 0.01;
+pub const SMALL_GAP: f64 = 0.01;
 
 /// Make a planar open curve periodic and without weights, within a tolerance. It has as many curvature extrema as the
 /// curve, a blend between its ends if they are apart, and the joints ask for, or a few more, proved; the deviation is
@@ -57,7 +48,7 @@ pub fn close_within(
     let (joint, size) = (joint_of(polygon, polygon), polygon.size());
     let meets = joint.meets(tolerance);
     let bent = check_joint(joint, size, tolerance);
-    let near = match bent.is_ok() && joint.meets(SMALL * size) {
+    let near = match bent.is_ok() && joint.meets(SMALL_GAP * size) {
         true => Closing::meeting(polygon, counts, tolerance.max(joint.gap)).search(progress),
         false => Err(MergeError::NotFound),
     };

@@ -52,13 +52,13 @@ const ADDED: usize = 2;
 const ABSORBED: f64 = 16.0;
 
 /// The share of the tolerance that samples must keep, so that the curve between them does too.
-const KEPT: f64 = 0.9;
+pub(super) const KEPT: f64 = 0.9;
 
 /// The same in space, where both ends are corrected afterwards.
 const KEPT_IN_SPACE: f64 = 0.5;
 
-/// The most vertices, by those of both curves, and how many a blend may always take.
-const MOST: usize = 2;
+/// The most vertices, by those of both curves, and how many a blend or a closed curve may always take.
+pub(super) const MOST: usize = 2;
 pub(super) const SMALLEST: usize = 60;
 
 /// The least and the most samples of a blend.
@@ -68,7 +68,7 @@ const BLEND_SAMPLES: [usize; 2] = [2 * SAMPLES, 200];
 const SHARED: f64 = 1e-12;
 
 /// The share of the time that is left for each number of extrema.
-const SHARE: f64 = 0.5;
+pub(super) const SHARE: f64 = 0.5;
 
 /// Two curves that became one.
 #[derive(Clone, Debug, PartialEq)]
