@@ -1,8 +1,8 @@
 //! The end-fit tool.
 
 use batten::editor::{Command, EndFitAction, Input, Key, Layer, ToolKind};
-use batten::geometry::End;
 use batten::geometry::end_correction::EndOverlap;
+use batten::geometry::{End, FloatPolygon};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -297,5 +297,35 @@ fn a_joint_correction_that_warns_is_shown_before_it_is_applied() {
             assert_eq!(script.steps(), steps);
         }
         assert_eq!(script.polygon(), before);
+    }
+}
+
+#[test]
+fn a_step_by_button_says_that_it_moves_the_other_end() {
+    // Of degree 5, nine vertices: both ends share one; with ten they share none.
+    for (count, shares) in [(9, true), (10, false)] {
+        let mut script = Script::example("s-curve");
+        let points: Vec<_> = (0..count)
+            .map(|index| {
+                let x = 12.0 * f64::from(index) - 48.0;
+                (x, -0.01 * x * x)
+            })
+            .collect();
+        script.set_polygon(FloatPolygon::planar(5, &points).expect("a polygon"));
+        script.tool(ToolKind::EndFit);
+        script.end_fit_action(EndFitAction::Choose(End::Finish));
+        let end = script.polygon().end_jet(End::Finish).point;
+        script.end_fit_action(EndFitAction::SetPoint(end + DVec3::X));
+        let start = script.polygon().end_jet(End::Start).point;
+        script.end_fit_action(EndFitAction::Translate);
+        let moves = script.polygon().end_jet(End::Start).point != start;
+        assert_eq!(moves, shares);
+        let report = script.end_fit().expect("figures");
+        let Some(Ok(note)) = report.outcome else {
+            panic!("{:?}", report.outcome);
+        };
+        // Without it the note may warn of the features that the step adds.
+        assert!(note.warns || !shares, "{note:?}");
+        assert_eq!(note.text.contains("The start moves by"), shares, "{note:?}");
     }
 }

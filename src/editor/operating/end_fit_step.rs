@@ -26,7 +26,7 @@ impl EndFitStep {
     ) -> LastAction {
         let report = report.filter(|_| reply.is_ok());
         let made = report.map_or(0, |report| self.passes_of(curve, report));
-        // The figures of the steps show the result of these two.
+        // The figures of the steps show the result of these two, but not what it costs elsewhere.
         let is_silent = matches!(self.action, EndFitAction::Translate | EndFitAction::Rotate);
         LastAction {
             curve: id,
@@ -36,7 +36,7 @@ impl EndFitStep {
                 .filter(|_| self.is_joint())
                 .and_then(|report| report.largest_move),
             reply: match reply {
-                Ok(_) if is_silent => Ok(Note::silent()),
+                Ok(note) if is_silent && !note.warns => Ok(Note::silent()),
                 reply => reply.clone(),
             },
         }
