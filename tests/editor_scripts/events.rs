@@ -113,6 +113,16 @@ impl Player {
         self.watch.check(&self.window, Done::Other)
     }
 
+    /// Save the document, whatever is going on.
+    ///
+    /// # Errors
+    /// What does not hold.
+    pub fn save(&mut self, file: &Path) -> Result<(), String> {
+        let saved = self.window.save(file);
+        saved.map_err(|refusal| format!("not saved: {refusal}"))?;
+        self.watch.check(&self.window, Done::Other)
+    }
+
     fn play_one(&mut self, event: &Event) -> Result<(), String> {
         match event {
             Event::Move(place, beside) => {
@@ -268,6 +278,7 @@ impl Player {
             self.watch.expect_field();
         }
         let (values, is_applied) = (self.window.values(), self.is_applied());
+        let draws = self.window.undoes_points();
         let opening = self.window.opening();
         self.window.panel(panel);
         if let Panel::SetAnyValue(..) | Panel::SetValue(..) = panel
@@ -284,7 +295,8 @@ impl Player {
             Panel::Replace(_) => Done::Replace,
             Panel::File(_) if self.window.opening() != opening => Done::Replace,
             Panel::File(OfFile::Reload) => Done::Reload,
-            Panel::File(OfFile::Save | OfFile::Change(_)) => Done::Look,
+            // Saving ends a drawing.
+            Panel::File(OfFile::Save | OfFile::Change(_)) if !draws => Done::Look,
             Panel::Cut => Done::Delete,
             Panel::Transform(_) => Done::Transform,
             _ => Done::Other,

@@ -125,22 +125,22 @@ fn play(start: Start, events: &[Event], file: &Path, steps: &Cell<usize>) -> Res
     save(&mut player, file)
 }
 
-/// Save whatever is going on: that goes on, and the file is without it.
+/// Save whatever is going on: a drawing ends, everything else goes on, and the file is without it.
 fn save_in_between(player: &mut Player, file: &Path) -> Result<(), String> {
-    let window = &mut player.window;
+    let window = &player.window;
     let (shown, in_gesture, tries) = (
         window.document().clone(),
         window.is_in_gesture(),
         window.is_trying(),
     );
-    let values = window.values();
-    let saved = window.save(file);
-    saved.map_err(|refusal| format!("not saved: {refusal}"))?;
+    let (values, draws) = (window.values(), window.undoes_points());
+    player.save(file)?;
+    let window = &player.window;
     let goes_on = window.is_in_gesture() == in_gesture
         && window.is_trying() == tries
         && window.values() == values
         && window.document().is_same(&shown);
-    if !goes_on {
+    if !goes_on && !draws {
         return Err("saving ended what was going on".into());
     }
     check_read(window.settled(), disk::read_file(file))
@@ -148,8 +148,7 @@ fn save_in_between(player: &mut Player, file: &Path) -> Result<(), String> {
 
 /// Save, read what was saved, export it and import it again.
 fn save(player: &mut Player, file: &Path) -> Result<(), String> {
-    let saved = player.window.save(file);
-    saved.map_err(|refusal| format!("not saved: {refusal}"))?;
+    player.save(file)?;
     if player.window.is_modified() {
         return Err("saved, and still modified".into());
     }

@@ -224,7 +224,11 @@ impl Watch {
                 self.go_on(settled.clone())?;
             }
             Done::Amend => self.follow_amended(settled.clone(), steps)?,
-            _ => self.follow_steps(done, pending, &settled, steps)?,
+            _ => {
+                let shows = pending.then(|| self.shown.clone());
+                let first = shows.or_else(|| self.drawn(window, steps));
+                self.follow_steps(done, first, &settled, steps)?;
+            }
         }
         if steps != self.at {
             return Err(format!("{steps} steps to undo, not {}", self.at));
@@ -281,7 +285,7 @@ impl Watch {
             return Ok(());
         }
         if steps != self.at {
-            return self.follow_steps(Done::Amend, false, &now, steps);
+            return self.follow_steps(Done::Amend, None, &now, steps);
         }
         if now.bits != self.states[self.at].bits {
             self.states.truncate(self.at + 1);
@@ -290,23 +294,33 @@ impl Watch {
         Ok(())
     }
 
-    /// What is no undo makes steps or none: of a field that was pending, and of its own.
+    /// What a drawing became that ended before a step of something else.
+    fn drawn(&self, window: &Window, steps: usize) -> Option<State> {
+        if !self.unfinished || steps != self.at + 2 {
+            return None;
+        }
+        let mut history = window.history().clone();
+        history.undo()?;
+        Some(State::of(history.document()))
+    }
+
+    /// What is no undo makes steps or none: a first one of a field or a drawing that it ends, and its own.
     fn follow_steps(
         &mut self,
         done: Done,
-        pending: bool,
+        first: Option<State>,
         now: &State,
         steps: usize,
     ) -> Result<(), String> {
         let made = steps
             .checked_sub(self.at)
             .ok_or(format!("{} steps became {steps}", self.at))?;
-        let new = match made {
-            0 => return Ok(()),
+        let new = match (made, first) {
+            (0, _) => return Ok(()),
             _ if done == Done::Escape => return Err("Escape made a step".into()),
-            1 => vec![now.clone()],
-            2 if pending => vec![self.shown.clone(), now.clone()],
-            made => return Err(format!("{made} steps at once")),
+            (1, _) => vec![now.clone()],
+            (2, Some(first)) => vec![first, now.clone()],
+            (made, _) => return Err(format!("{made} steps at once")),
         };
         self.states.truncate(self.at + 1);
         for state in new {

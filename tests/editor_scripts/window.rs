@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use batten::analysis::LevelPlot;
-use batten::document::{Colour, Curve, CurveId, Document, Edit};
+use batten::document::{Colour, Curve, CurveId, Document, Edit, History};
 use batten::editor::{
     CombSettings, Command, Editor, EndFitAction, EndFitMarks, FileAnswer, Input, Layer, Look,
     OperationInProgress, PlotKind, Reply, Selection, Shortcut, Transformation, Viewport, told,
@@ -253,12 +253,17 @@ impl Window {
 
     /// The number of steps that can be taken back.
     pub fn undo_steps(&self) -> usize {
-        self.editor.workspace().history().undo_steps()
+        self.history().undo_steps()
+    }
+
+    /// The steps and what they lead to.
+    pub fn history(&self) -> &History {
+        self.editor.workspace().history()
     }
 
     /// Whether a step can be made again.
     pub fn can_redo(&self) -> bool {
-        self.editor.workspace().history().redo_label().is_some()
+        self.history().redo_label().is_some()
     }
 
     /// Whether a command is offered now.
