@@ -329,3 +329,24 @@ fn a_step_by_button_says_that_it_moves_the_other_end() {
         assert_eq!(note.text.contains("The start moves by"), shares, "{note:?}");
     }
 }
+
+#[test]
+fn the_result_at_one_end_is_not_shown_at_the_other() {
+    let mut script = Script::example("s-curve");
+    script.tool(ToolKind::EndFit);
+    script.end_fit_action(EndFitAction::Choose(End::Finish));
+    script.end_fit_action(EndFitAction::TargetActual);
+    script.end_fit_action(EndFitAction::Choose(End::Start));
+    script.end_fit_action(EndFitAction::SetPoint(DVec3::new(-60.0, 0.0, 0.0)));
+    script.end_fit_action(EndFitAction::Translate);
+    let outcome = |script: &mut Script| script.end_fit().expect("figures").outcome;
+    assert!(outcome(&mut script).is_some());
+    script.end_fit_action(EndFitAction::Choose(End::Finish));
+    assert_eq!(outcome(&mut script), None);
+    script.end_fit_action(EndFitAction::Choose(End::Start));
+    assert!(outcome(&mut script).is_some());
+    // What corrects all ends is told at each.
+    script.end_fit_action(EndFitAction::Repeat);
+    script.end_fit_action(EndFitAction::Choose(End::Finish));
+    assert!(outcome(&mut script).is_some());
+}

@@ -27,7 +27,12 @@ impl Editor {
             ))));
         }
         let revision = self.workspace.revision();
-        let mut step = EndFitStep { action, passes: 0 };
+        let end = self.hand.settings.end_fit.end;
+        let mut step = EndFitStep {
+            action,
+            end,
+            passes: 0,
+        };
         let reply = match correction(action, &self.hand.settings.end_fit, &curve) {
             Some((operation, values)) => {
                 step.passes = self

@@ -227,6 +227,8 @@ impl Default for EndFitSettings {
 pub struct LastAction {
     /// The curve.
     pub curve: CurveId,
+    /// The end that it was for; `None` for all ends.
+    pub end: Option<End>,
     /// The document's revision afterwards.
     pub revision: u64,
     /// The reply.
@@ -296,7 +298,9 @@ impl EndFitSettings {
             passes: last.map_or(0, |last| last.passes),
             overlap: EndOverlap::of(polygon),
             picking: self.picking,
-            outcome: last.map(|last| last.reply.clone()),
+            outcome: last
+                .filter(|last| last.end.is_none_or(|end| end == self.end))
+                .map(|last| last.reply.clone()),
             largest_move: last.and_then(|last| last.largest_move),
         }
     }

@@ -3,6 +3,7 @@
 use crate::document::{Curve, CurveId};
 use crate::editor::hand::end_fit::{EndFitAction, LastAction};
 use crate::editor::reply::{Note, Reply};
+use crate::geometry::End;
 use crate::operations::{Report, Value};
 
 /// An action of the end-fit panel.
@@ -10,6 +11,8 @@ use crate::operations::{Report, Value};
 pub(in crate::editor) struct EndFitStep {
     /// The action.
     pub action: EndFitAction,
+    /// The end that was being corrected.
+    pub end: End,
     /// The passes made before it, since the targets last changed.
     pub passes: usize,
 }
@@ -30,6 +33,7 @@ impl EndFitStep {
         let is_silent = matches!(self.action, EndFitAction::Translate | EndFitAction::Rotate);
         LastAction {
             curve: id,
+            end: (!self.is_of_all_ends()).then_some(self.end),
             revision,
             passes: self.passes + made,
             largest_move: report
@@ -45,6 +49,11 @@ impl EndFitStep {
     /// Whether it corrects both ends at once.
     pub fn is_joint(self) -> bool {
         self.action == EndFitAction::BothAtOnce
+    }
+
+    /// Whether it corrects every end that has a target.
+    fn is_of_all_ends(self) -> bool {
+        self.is_joint() || self.action == EndFitAction::Repeat
     }
 
     /// The passes of steps 2 to 6 that the action made.
