@@ -156,12 +156,12 @@ impl Keyboard {
         }
         let typing = typing(context);
         let holding = editor.hand().is_holding();
-        // Digits typed while a tool takes numbers are meant for it.
+        // Digits typed while something is dragged, or while a tool takes numbers, are meant for it.
         let is_number = |shortcut: &Shortcut| {
             shortcut.modifiers == Modifiers::NONE
                 && matches!(shortcut.key, Key::Character('0'..='9' | '+' | '-'))
         };
-        let takes_numbers = editor.hand().entry(editor.view().viewport()).is_some();
+        let takes_numbers = holding || editor.hand().entry(editor.view().viewport()).is_some();
         let table: Vec<(Shortcut, Action)> = Action::all()
             .into_iter()
             .filter_map(|command| Some((command.shortcut()?, command)))

@@ -25,6 +25,28 @@ fn digits_typed_while_drawing_switch_no_layers() {
 }
 
 #[test]
+fn digits_typed_during_a_drag_switch_no_layers() {
+    let mut window = open_window();
+    let layers = window.state().editor().sight().layers();
+    let from = vertex(&window, 2);
+    window.hover_at(from);
+    window.run();
+    window.drag_at(from);
+    window.step();
+    window.hover_at(from + vec2(30.0, 10.0));
+    window.step();
+    for key in [Key::Num1, Key::Num2, Key::Num5] {
+        press(&mut window, Modifiers::NONE, key);
+    }
+    assert!(window.state().editor().hand().is_holding());
+    assert_eq!(window.state().editor().sight().layers(), layers);
+    window.drop_at(from + vec2(30.0, 10.0));
+    window.run();
+    press(&mut window, Modifiers::NONE, Key::Num1);
+    assert!(!window.state().editor().sight().layers().shows(Layer::Float));
+}
+
+#[test]
 fn a_message_about_a_deletion_undoes_it() {
     let mut window = open_window();
     let before = curve(&window);
