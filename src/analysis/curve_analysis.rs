@@ -15,7 +15,7 @@ use super::vertex_chain::{VertexChain, changed_range};
 use crate::document::Curve;
 use crate::geometry::features::{Features, SegmentFeatures};
 use crate::geometry::harmony::Harmony;
-use crate::geometry::{ClampedPolygon, FloatPolygon};
+use crate::geometry::{ClampedPolygon, FloatPolygon, Range as Span};
 
 /// Hold the samples of a curve, its polygons' vertices, its features and its plots.
 #[derive(Debug)]
@@ -160,6 +160,21 @@ impl CurveAnalysis {
     /// The proved features, if all are known.
     pub fn known_features(&self) -> Option<&Features> {
         self.features.known(&self.curve)
+    }
+
+    /// The smallest and largest curvature: that of the samples, and once the features are proved that of the extrema
+    /// between them, to rounding. Signed if the curve is planar.
+    pub fn curvature(&self) -> Option<Span> {
+        let polygon = &self.curve.polygon;
+        let extrema = self.known_features().into_iter();
+        let extrema = extrema.flat_map(|features| &features.curvature_extrema);
+        let values = extrema.filter(|it| it.value.iter().all(|bound| bound.is_finite()));
+        let values = values.map(|it| {
+            let jet = polygon.jet(0.5 * (it.u[0] + it.u[1]));
+            jet.curvature_of(self.is_planar())
+        });
+        let sampled = self.samples.curvature()?;
+        Some(values.fold(sampled, Span::with))
     }
 
     /// The features of all segments, if they are known.

@@ -63,7 +63,7 @@ impl<'a> Sight<'a> {
             planar: analysis.is_planar(),
             segments: polygon.segments(),
             length: analysis.samples().length(),
-            curvature: analysis.samples().curvature(),
+            curvature: analysis.curvature(),
             legs: figures.legs,
             turns: figures.turns,
             amplification: Amplification::of_unclamping(polygon.degree(), polygon.segments()),

@@ -89,8 +89,9 @@ impl Plots {
         self.remark = match cut {
             _ if is_graph => slope_remark(editor),
             Some((low, high)) => {
-                let [low, high] = [low, high].map(|reach| figures::significant(reach, 4));
-                format!("Peaks beyond the plot: {low} … {high}")
+                // A plot is made of samples.
+                let [low, high] = [low, high].map(|reach| figures::significant(reach, 2));
+                format!("Peaks beyond the plot: about {low} … {high}")
             }
             None if is_curvature && !scene.discrete.is_empty() => {
                 discrete::legend(scene.flank).to_owned()
