@@ -5,6 +5,7 @@ mod commands;
 mod dispatch;
 mod hand;
 mod jobs;
+mod matched_curves;
 mod operating;
 mod polygon_edits;
 mod reply;
@@ -51,9 +52,9 @@ use hand::snap_name::snap_name;
 use jobs::Client;
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;
+use matched_curves::{followers, matched, newly_matched};
 use operating::Operations;
 use reply::with_lines;
-use sharper::{newly_matched, sharp_matches};
 use view::overlay::Overlay;
 
 /// Hold the running application: what is worked on, how it is seen, and what works on it.
@@ -288,7 +289,7 @@ impl Editor {
     fn make(&mut self, label: &str, edits: Vec<Edit>, repeats: bool) -> Reply {
         let was_empty = self.document().is_empty();
         let before = self.workspace.settled().clone();
-        let matched = newly_matched(&edits);
+        let newly = newly_matched(&edits);
         let made = if repeats {
             self.workspace.extend(label, edits)
         } else {
@@ -300,11 +301,18 @@ impl Editor {
             self.look(Look::ResetComb);
         }
         made?;
-        let told = dissolved(self.document(), &before);
-        let warnings = sharp_matches(&matched, [&before, self.document()]);
-        Ok(match warnings.is_empty() {
-            true => Note::told(told),
-            false => Note::done(with_lines(warnings, &told)).warning(),
+        let documents = [&before, self.document()];
+        let (moves, bends) = matched(&newly, documents);
+        let follow = followers(documents, &newly);
+        let warns = bends || !follow.is_empty();
+        let told = with_lines(
+            with_lines(moves, &follow),
+            &dissolved(self.document(), &before),
+        );
+        Ok(match (newly.is_empty(), warns) {
+            (_, true) => Note::done(told).warning(),
+            (false, false) => Note::done(told),
+            (true, false) => Note::told(told),
         })
     }
 
@@ -344,8 +352,13 @@ impl Editor {
     /// Keep the preview of a number field as one step.
     pub fn commit_preview(&mut self) {
         if self.workspace.interruption() == Some(Interruption::Commits) {
+            let before = self.workspace.settled().clone();
             self.hand
                 .commit_kept(&mut self.workspace, &self.view.analyses);
+            let follow = followers([&before, self.workspace.document()], &[]);
+            if !follow.is_empty() {
+                self.message = Message::of(&Ok(Note::done(follow).warning()));
+            }
         }
     }
 

@@ -66,9 +66,9 @@ impl Note {
     }
 }
 
-/// Add lines to a message, if there are any.
+/// Add lines to a message, if there are any; without a text they are the message.
 pub(in crate::editor) fn with_lines(text: String, lines: &impl fmt::Display) -> String {
-    format!("{text}\n{lines}").trim_end().to_owned()
+    format!("{text}\n{lines}").trim().to_owned()
 }
 
 /// The reason why a request was refused; nothing is changed then.

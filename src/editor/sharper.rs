@@ -1,6 +1,6 @@
 //! Bends that a change makes much sharper, though nobody asked for them.
 
-use crate::document::{CurveId, Document, Edit, quoted};
+use crate::document::{Document, quoted};
 use crate::geometry::{FloatPolygon, largest_curvature, significant};
 
 /// A bend that is so many times as sharp as all bends before is told.
@@ -27,26 +27,4 @@ pub(super) fn sharp_drag([before, after]: [&Document; 2]) -> Option<String> {
             "{name} is bent to the radius {radius} now, much sharper than before"
         ))
     })
-}
-
-/// The curves that edits match with others.
-pub(super) fn newly_matched(edits: &[Edit]) -> Vec<CurveId> {
-    let matched = edits.iter().filter_map(|edit| match edit {
-        Edit::SetMatch(matched) => Some(matched.curve),
-        _ => None,
-    });
-    matched.collect()
-}
-
-/// Say which curves their new matches bend much more sharply than they were, a line each.
-pub(super) fn sharp_matches(matched: &[CurveId], [before, after]: [&Document; 2]) -> String {
-    let told = matched.iter().filter_map(|id| {
-        let (before, after) = (before.curve(*id)?, after.curve(*id)?);
-        let radius = sharper_radius(&before.polygon, &after.polygon)?;
-        let name = quoted(&after.name);
-        Some(format!(
-            "The match bends {name} to the radius {radius}: match up to less, or refine first"
-        ))
-    });
-    told.collect::<Vec<_>>().join("\n")
 }

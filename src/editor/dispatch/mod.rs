@@ -10,8 +10,9 @@ use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
 use crate::editor::hand::menu::MenuTarget;
 use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind, Tools};
+use crate::editor::matched_curves::followers;
 use crate::editor::operating::OperationInProgress;
-use crate::editor::reply::{Message, Note, Refusal, told};
+use crate::editor::reply::{Message, Note, Refusal, told, with_lines};
 use crate::editor::sharper::sharp_drag;
 use crate::editor::view::Look;
 use crate::editor::workspace::Interruption;
@@ -268,7 +269,10 @@ impl Editor {
                     let before = self.workspace.settled().clone();
                     let analyses = &self.view.analyses;
                     self.hand.commit_kept(&mut self.workspace, analyses);
-                    if let Some(warning) = sharp_drag([&before, self.workspace.document()]) {
+                    let documents = [&before, self.workspace.document()];
+                    let sharper = sharp_drag(documents).unwrap_or_default();
+                    let warning = with_lines(sharper, &followers(documents, &[]));
+                    if !warning.is_empty() {
                         self.message = Message::of(&Ok(Note::done(warning).warning()));
                     }
                 }

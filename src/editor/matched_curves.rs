@@ -1,0 +1,100 @@
+//! What matches do to curves: to those that are matched anew, and to those that follow others.
+
+use crate::document::{CurveId, Document, Edit, quoted};
+use crate::editor::same_shape::feature_change;
+use crate::geometry::{FloatPolygon, largest_curvature, rounded_up, significant};
+
+/// A curve that moves by less than this share of its size moves by rounding.
+const STILL: f64 = 1e-9;
+
+/// A smallest radius that becomes so many times smaller is told.
+const SHARPER: f64 = 1.25;
+
+/// Features of curves with more segments are not compared: to prove them would stop the hand.
+const COMPARED: usize = 400;
+
+/// The curves that edits match with others.
+pub(super) fn newly_matched(edits: &[Edit]) -> Vec<CurveId> {
+    let matched = edits.iter().filter_map(|edit| match edit {
+        Edit::SetMatch(matched) => Some(matched.curve),
+        _ => None,
+    });
+    matched.collect()
+}
+
+/// Say what new matches do to their curves, a line each, and whether that is more than a move.
+pub(super) fn matched(curves: &[CurveId], documents: [&Document; 2]) -> (String, bool) {
+    let mut bends = false;
+    let told = curves.iter().filter_map(|id| {
+        let [before, after] = polygons(*id, documents)?;
+        let moved = moved(before, after)?;
+        let name = quoted(documents[1].name(*id)?);
+        let changes = changes(before, after);
+        bends |= !changes.is_empty();
+        Some(match changes.is_empty() {
+            true => format!("The match moves {name} by up to {moved}"),
+            false => format!(
+                "The match moves {name} by up to {moved}; {}: match up to less, or refine first",
+                changes.join("; ")
+            ),
+        })
+    });
+    let told = told.collect::<Vec<_>>().join("\n");
+    (told, bends)
+}
+
+/// Say which curves follow others in a step and change their features or bends, a line each.
+pub(super) fn followers(documents: [&Document; 2], matched: &[CurveId]) -> String {
+    let [before, after] = documents;
+    let has_changed = |id: CurveId| {
+        before.curve(id) != after.curve(id) || before.reference(id) != after.reference(id)
+    };
+    let following = after.curves().filter(|(id, _)| {
+        let mut own = after.matches().filter(|it| it.curve == *id);
+        !matched.contains(id) && own.any(|it| has_changed(it.source))
+    });
+    let told = following.filter_map(|(id, curve)| {
+        let [before, after] = polygons(id, documents)?;
+        moved(before, after)?;
+        let changes = changes(before, after);
+        (!changes.is_empty())
+            .then(|| format!("{} follows: {}", quoted(&curve.name), changes.join("; ")))
+    });
+    told.collect::<Vec<_>>().join("\n")
+}
+
+/// A curve's polygons before and after a step, if it has both.
+fn polygons(id: CurveId, documents: [&Document; 2]) -> Option<[&FloatPolygon; 2]> {
+    let [before, after] = documents.map(|document| document.curve(id));
+    Some([&before?.polygon, &after?.polygon])
+}
+
+/// How far a curve moves, as text; `None` if it is only rounding, or another number of vertices.
+fn moved(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
+    let moved = before.deviation(after).ok()?;
+    (moved > STILL * before.size()).then(|| rounded_up(moved))
+}
+
+/// What of a curve's character changes: its features, its smallest radius, whether it is planar.
+fn changes(before: &FloatPolygon, after: &FloatPolygon) -> Vec<String> {
+    let is_compared = before.segments().max(after.segments()) <= COMPARED;
+    let features = is_compared.then(|| feature_change(before, after)).flatten();
+    let radii = [before, after].map(|polygon| {
+        let whole = [0.0, polygon.segments() as f64];
+        largest_curvature(polygon, whole).recip()
+    });
+    let [was, now] = radii;
+    // A curve that is scaled as a whole bends as before.
+    let shrinks = after.size() / before.size().max(f64::MIN_POSITIVE);
+    let is_sharper = was > SHARPER * now && was * shrinks.min(1.0) > SHARPER * now;
+    let radii = is_sharper.then(|| {
+        let [was, now] = radii.map(|radius| match radius.is_finite() {
+            true => significant(radius, 3),
+            false => "∞".to_owned(),
+        });
+        format!("smallest radius {was} before, {now} now")
+    });
+    let leaves = before.is_planar() && !after.is_planar();
+    let leaves = leaves.then(|| "it leaves its plane".to_owned());
+    features.into_iter().chain(radii).chain(leaves).collect()
+}
