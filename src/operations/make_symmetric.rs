@@ -17,6 +17,7 @@ use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
 use crate::document::{CurveId, ParameterSpan};
 use crate::geometry::approximation::merging::{MergeError, check_joint, joint_of, merge};
+use crate::geometry::distance::SideDeviation;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{
@@ -199,9 +200,11 @@ fn completed(
     };
     let symmetric = whole.polygon;
     let deviation = whole.off + cut;
-    let deviation_is = match whole.bounded {
-        true => Deviation::AtMost(deviation),
-        false => Deviation::Measured(deviation),
+    let replaced = replaced(polygon, span, &symmetric, progress)?;
+    let deviation_is = match (replaced, whole.bounded) {
+        (Some(replaced), _) => Deviation::Measured(replaced.max(deviation)),
+        (None, true) => Deviation::AtMost(deviation),
+        (None, false) => Deviation::Measured(deviation),
     };
     let spans = vec![ParameterSpan {
         old: span,
@@ -227,8 +230,33 @@ fn completed(
         Figure::word("method", "Method", whole.method),
         Figure::count("vertices", "Vertices", count),
     ];
+    if let Some(replaced) = replaced {
+        let [kept, replaced] = [deviation, replaced].map(|off| significant(off, 3));
+        outcome.remarks.push(format!(
+            "The half that is kept moves by up to {kept}, the other one becomes its image: up to {replaced}"
+        ));
+    }
     outcome.warnings.extend(whole.fault.or(whole.knuckle));
     Ok(outcome)
+}
+
+/// How far a curve is from the symmetric one where that replaces a part of it; `None` if all of it is kept.
+fn replaced(
+    polygon: &FloatPolygon,
+    span: [f64; 2],
+    symmetric: &FloatPolygon,
+    progress: &Progress,
+) -> Result<Option<f64>, OperationError> {
+    if span == [0.0, polygon.segments() as f64] {
+        return Ok(None);
+    }
+    let (mut largest, sides) = (0.0_f64, [polygon, symmetric]);
+    for [one, other] in [sides, [symmetric, polygon]] {
+        let side = SideDeviation::of_curve(one, other, progress);
+        let side = side.map_err(|_| OperationError::Cancelled)?;
+        largest = largest.max(side.largest.distance());
+    }
+    Ok(Some(largest))
 }
 
 /// A half and its image in one.

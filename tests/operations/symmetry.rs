@@ -1,5 +1,6 @@
 //! Curves that become their own mirror images.
 
+use batten::geometry::fairing::requirement::Requirement;
 use batten::geometry::{End, FloatPolygon, Mirror};
 use batten::operations::{Deviation, Value};
 use glam::DVec3;
@@ -81,11 +82,36 @@ fn each_half_is_completed_by_its_image() {
         check_is_symmetric(symmetric);
         let [before, after] = [&polygon, symmetric].map(|it| it.end_jet(end).point);
         assert!(before.distance(after) <= 1e-4 * size, "{before} {after}");
-        let Deviation::AtMost(bound) = outcome.deviation else {
-            panic!("{:?}", outcome.deviation);
-        };
+        let mut requirements = outcome.requirements.iter().flat_map(|(_, all)| all);
+        let bound = requirements.find_map(|it| match it {
+            Requirement::Limit { found, .. } => Some(*found),
+            _ => None,
+        });
+        let bound = bound.expect("how far the half moves");
         assert!(bound <= 1e-4 * size, "{bound}");
-        // Every point of the half lies near the whole.
+        // The other half is another one, and that is told.
+        let samples = |polygon: &FloatPolygon| -> Vec<DVec3> {
+            let last = polygon.segments() as f64;
+            (0..=3000)
+                .map(|it| polygon.point(f64::from(it) / 3000.0 * last))
+                .collect()
+        };
+        let [before, after] = [samples(&polygon), samples(symmetric)];
+        let off = |from: &[DVec3], to: &[DVec3]| {
+            let nearest = |at: &DVec3| {
+                to.iter()
+                    .map(|it| it.distance(*at))
+                    .fold(f64::INFINITY, f64::min)
+            };
+            from.iter().map(nearest).fold(0.0, f64::max)
+        };
+        let whole = off(&before, &after).max(off(&after, &before));
+        assert!(
+            matches!(outcome.deviation, Deviation::Measured(told) if (told / whole - 1.0).abs() < 1e-2),
+            "{:?}, not {whole}",
+            outcome.deviation
+        );
+        // Every point of the half that is kept lies near the whole.
         let steps = 0..=60;
         let half = steps.map(|step| f64::from(step) / 60.0 * polygon.segments() as f64);
         let samples = 60_000;
