@@ -13,10 +13,13 @@ const TOUCHING: f64 = 1e-12;
 /// Find a point near where a curve crosses itself in the plane z = 0, by a polyline of 32 legs a segment; `None` if that
 /// does not cross itself.
 pub fn curve_crossing(polygon: &FloatPolygon) -> Option<DVec2> {
-    let samples = polygon.segments() * SAMPLES;
-    let places = (0..=samples).map(|sample| sample as f64 / SAMPLES as f64);
-    let points: Vec<DVec2> = places.map(|u| polygon.point(u).truncate()).collect();
-    crossing(&points)
+    crossing(&points_of(polygon).collect::<Vec<DVec2>>())
+}
+
+/// Whether planar curves that go on from one to the next cross themselves or each other.
+pub fn cross(curves: &[&FloatPolygon]) -> bool {
+    let points = curves.iter().flat_map(|polygon| points_of(polygon));
+    crossing(&points.collect::<Vec<DVec2>>()).is_some()
 }
 
 /// Find a point where a curve of the plane crosses itself, if none of those that it was made of does. `None` for a curve in
@@ -53,6 +56,12 @@ pub(super) fn crossing(points: &[DVec2]) -> Option<DVec2> {
         near.push(leg);
     }
     None
+}
+
+fn points_of(polygon: &FloatPolygon) -> impl Iterator<Item = DVec2> {
+    let samples = polygon.segments() * SAMPLES;
+    let places = (0..=samples).map(|sample| sample as f64 / SAMPLES as f64);
+    places.map(|u| polygon.point(u).truncate())
 }
 
 fn low(leg: &[DVec2; 2]) -> f64 {

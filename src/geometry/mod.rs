@@ -72,7 +72,7 @@ pub use conversion::{
     Amplification, Approximation, BezierPolygon, ClampedPolygon, ExactPolygon, MAX_ADDED_SEGMENTS,
     NearestFloat, Rounded, segment_bezier,
 };
-pub use crossing::{curve_crossing, new_crossing};
+pub use crossing::{cross, curve_crossing, new_crossing};
 pub use curvature_levels::{CurvatureLevels, LEVEL_ORDER, LEVELS};
 pub use differentiable::Differentiable;
 pub use end::{End, rotation_between};

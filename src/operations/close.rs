@@ -1,12 +1,14 @@
 //! A curve whose ends are joined, so that it is periodic.
 
+use std::time::Duration;
+
 use super::bridge::{BRIDGE, annotations, fault, figures, found, knuckle, remarks};
 use super::crossing::new_crossing;
 use super::editable::open;
 use super::error::OperationError;
 use super::fit_piece::features;
 use super::inputs::Inputs;
-use super::join::{ALSO_WITHIN, BLENDING, WITHIN};
+use super::join::{ALSO_WITHIN, WITHIN};
 use super::lists::given_count;
 use super::matches::without_match;
 use super::operands::Operands;
@@ -15,14 +17,20 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::values::Values;
 use crate::document::{Curve, CurveId, Edit, ParameterSpan};
 use crate::geometry::approximation::merging::{MergeError, joint_of};
-use crate::geometry::approximation::{SMALL_GAP, close_within};
+use crate::geometry::approximation::{SMALL_GAP, blend, close_within};
 use crate::geometry::fairing::bends::Bends;
 use crate::geometry::fairing::bridging::{Bridged, close};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::{BezierPolygon, End, FloatPolygon, Progress, largest_curvature, significant};
+use crate::geometry::{
+    BezierPolygon, End, FloatPolygon, Progress, cross, largest_curvature, significant,
+};
 
-/// A new curve that bends so many times as sharply as the curve is no use.
+/// A new curve that bends so many times as sharply as the curve, and as a blend of its ends, is no use.
 const SHARPER: f64 = 4.0;
+const SHARPER_THAN_BLEND: f64 = 1.25;
+
+/// How long a new curve near the curve may take.
+const NEAR: Duration = Duration::from_secs(10);
 
 /// The operation: its description, and how it is checked and run.
 pub static OPERATION: Operation = Operation {
@@ -107,7 +115,7 @@ fn closed_near(
     let gap = joint_of(&curve.polygon, &curve.polygon).gap;
     let moved = if gap <= SMALL_GAP * size { gap } else { 0.0 };
     let (tolerance, most) = (WITHIN * size, moved.max(ALSO_WITHIN * size));
-    let limited = progress.unshown().limited(BLENDING);
+    let limited = progress.unshown().limited(NEAR);
     let found = match close_within(&curve.polygon, tolerance, &limited) {
         Err(MergeError::Cancelled) if !limited.is_late() => return Err(OperationError::Cancelled),
         Err(_) => return Ok(None),
@@ -122,13 +130,23 @@ fn closed_near(
     };
     let spans = (0..segments).map(span).collect();
     let joint = [place(segments), found.polygon.segments() as f64];
-    let crossing = new_crossing(&[&curve.polygon], &found.polygon);
-    let is_knuckle = Bends::between(&found.polygon, joint).is_knuckle();
-    let [was, now] = [&curve.polygon, &found.polygon].map(|polygon| {
+    let between = blend(&curve.polygon, &curve.polygon);
+    let sharpest = |polygon: &FloatPolygon| {
         let whole = [0.0, polygon.segments() as f64];
         size * largest_curvature(polygon, whole)
-    });
-    let is_sharper = now > SHARPER * was.max(1.0);
+    };
+    let blended = between.as_ref().map_or(0.0, sharpest);
+    let [was, now] = [&curve.polygon, &found.polygon].map(sharpest);
+    let is_sharper = now > SHARPER * was.max(1.0) && now > SHARPER_THAN_BLEND * blended;
+    // Between ends on both sides of the curve nothing can lie that does not cross it.
+    let is_across = between.is_some_and(|between| cross(&[&curve.polygon, &between]));
+    let found_crossing = new_crossing(&[&curve.polygon], &found.polygon);
+    let (crossed, crossing) = match is_across {
+        true => (found_crossing, None),
+        false => (None, found_crossing),
+    };
+    let is_knuckle =
+        blended <= SHARPER * was.max(1.0) && Bends::between(&found.polygon, joint).is_knuckle();
     if crossing.is_some() || is_knuckle || is_sharper || found.waves > 0 {
         return Ok(None);
     }
@@ -154,6 +172,7 @@ fn closed_near(
     outcome
         .remarks
         .push(format!("{why}: a new curve within {moved} is closed"));
+    outcome.warnings.extend(crossed);
     if curve.polygon.is_rational() {
         outcome
             .remarks

@@ -1296,3 +1296,89 @@ fn a_small_gap_is_closed_without_a_kink_or_not_at_all() {
         assert_eq!(curve_crossing(closed), None, "{start:?}: {told}");
     }
 }
+
+#[test]
+fn a_gap_that_no_bridge_fits_is_closed_by_a_blend() {
+    // Fits of a ring whose ends lie beside each other, of an eight with its gap at the crossing, and of an ellipse;
+    // with the most extrema, inflections and curvature by 1 / size that closing takes.
+    let ring = [
+        (-314.468, 40.475),
+        (25.783, -131.871),
+        (92.788, 27.296),
+        (-16.204, 84.072),
+        (-83.173, 0.237),
+        (-17.88, -84.707),
+        (94.08, -32.843),
+        (42.449, 140.496),
+        (-424.956, 80.672),
+    ];
+    let eight = [
+        (-123.884, -107.063),
+        (-33.345, -38.864),
+        (9.439, 12.558),
+        (39.548, 37.534),
+        (58.489, 27.94),
+        (63.572, -6.41),
+        (53.38, -35.218),
+        (30.427, -32.095),
+        (0.44, -0.573),
+        (-30.912, 32.964),
+        (-54.099, 34.865),
+        (-63.766, 4.662),
+        (-57.802, -29.72),
+        (-37.74, -36.758),
+        (-8.352, -10.22),
+        (27.157, 30.115),
+        (165.337, 161.821),
+    ];
+    let ellipse = [
+        (5.864, 1.846),
+        (68.363, -43.737),
+        (130.692, 2.922),
+        (62.451, 43.746),
+        (-47.826, 44.942),
+        (-114.266, 14.269),
+        (-102.281, -23.849),
+        (-26.909, -45.955),
+        (65.817, -39.64),
+        (122.67, -6.087),
+        (90.663, 44.225),
+        (-152.715, 88.549),
+    ];
+    let cases: [(&str, &[(f64, f64)], usize, usize, f64); 3] = [
+        ("ring", &ring, 4, 2, 0.2),
+        ("eight", &eight, 6, 2, 0.1),
+        ("ellipse", &ellipse, 4, 0, 0.07),
+    ];
+    for (name, points, extrema, inflections, sharpest) in cases {
+        let open = FloatPolygon::planar(5, points).expect("a polygon");
+        let runner = Runner::of(open.clone());
+        let (_, curves) = runner.done("close", &[]);
+        let closed = &curves[0].polygon;
+        let features = Features::new(closed);
+        assert!(closed.is_periodic(), "{name}");
+        assert!(
+            features.count(Feature::CurvatureExtremum) <= extrema,
+            "{name}"
+        );
+        assert!(features.count(Feature::Inflection) <= inflections, "{name}");
+        let samples = |polygon: &FloatPolygon| {
+            let last = polygon.segments() as f64;
+            let polygon = polygon.clone();
+            (0..=2000).map(move |it| polygon.jet(f64::from(it) / 2000.0 * last))
+        };
+        let found = samples(closed)
+            .map(|jet| jet.curvature())
+            .fold(0.0, f64::max);
+        assert!(found <= sharpest, "{name}: {found}");
+        // It runs along the curve.
+        let near: Vec<DVec3> = samples(closed).map(|jet| jet.point).collect();
+        for at in samples(&open) {
+            let off = near
+                .iter()
+                .map(|it| it.distance(at.point))
+                .fold(f64::INFINITY, f64::min);
+            assert!(off < 0.2, "{name}: {off} at {}", at.point);
+        }
+    }
+}

@@ -5,17 +5,15 @@ use glam::{DVec2, DVec3};
 
 use super::blending::blend;
 use super::merging::{
-    KEPT, MOST, MergeError, Merged, SHARE, SMALLEST, Track, added_by_joint, check_joint, counts_of,
-    joint_of, sampled, samples_of,
+    KEPT, MOST, MergeError, Merged, SMALLEST, Track, check_joint, counts_of, joint_of, sampled,
+    samples_of,
 };
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::end::End;
-use crate::geometry::fitting::{Extrema, FitError, PlaneFit, fit_plane};
+use crate::geometry::fitting::{FitError, PlaneFit, fit_plane};
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::largest_curvature::largest_curvature;
 use crate::geometry::progress::Progress;
-
-/// How many numbers of extrema are tried, by twos: a periodic curve has an even number.
-const TRIED: usize = 3;
 
 /// Samples nearer to the middle of a gap than so many times its width do not count.
 const BESIDE: f64 = 2.0;
@@ -26,10 +24,13 @@ const BLEND_SAMPLES: usize = 48;
 /// Ends that are no farther apart than this share of the size, and turn little, go over into each other.
 pub const SMALL_GAP: f64 = 0.01;
 
-/// Make a planar open curve periodic and without weights, within a tolerance. It has as many curvature extrema as the
-/// curve, a blend between its ends if they are apart, and the joints ask for, or a few more, proved; the deviation is
-/// that of the curve from it. Across a gap of up to 1 % of the size ends go over into each other, and move by no more
-/// than the gap; where that fails, or it is wider, the blend connects them.
+/// Ends that go over into each other so many times as sharply as the curve bends elsewhere bulge.
+const BULGE: f64 = 1.25;
+
+/// Make a planar open curve periodic and without weights, within a tolerance. It has the fewest curvature extrema that
+/// the curve and a blend between its ends, if they are apart, allow, proved; the deviation is that of the curve from it.
+/// Across a gap of up to 1 % of the size ends go over into each other, and move by no more than the gap; where that fails
+/// or bulges, or the gap is wider, the blend connects them.
 ///
 /// Where no such curve keeps the tolerance, the nearest one that was found is returned.
 ///
@@ -49,26 +50,41 @@ pub fn close_within(
     let meets = joint.meets(tolerance);
     let bent = check_joint(joint, size, tolerance);
     let near = match bent.is_ok() && joint.meets(SMALL_GAP * size) {
-        true => Closing::meeting(polygon, counts, tolerance.max(joint.gap)).search(progress),
+        true => Closing::meeting(polygon, counts, tolerance.max(joint.gap)).fitted(progress),
         false => Err(MergeError::NotFound),
     };
+    let is_near = |closed: &Merged| closed.deviation <= tolerance.max(joint.gap);
     match near {
-        Ok(closed) if closed.deviation <= tolerance.max(joint.gap) => Ok(closed),
+        Ok(closed) if is_near(&closed) && (meets || !bulges(&closed.polygon, polygon)) => {
+            Ok(closed)
+        }
         Err(MergeError::Cancelled) => Err(MergeError::Cancelled),
         near if meets => bent.and(near),
-        _ => Closing::blended(polygon, counts, tolerance, progress)?.search(progress),
+        near => {
+            let blended = Closing::blended(polygon, counts, tolerance, progress)?.fitted(progress);
+            match (near, blended) {
+                (Ok(near), Err(_)) if is_near(&near) => Ok(near),
+                (_, blended) => blended,
+            }
+        }
     }
 }
 
-/// A search for a periodic curve.
+/// Whether a curve that is closed bends more sharply than the open one did.
+fn bulges(closed: &FloatPolygon, open: &FloatPolygon) -> bool {
+    let [now, was] = [closed, open].map(|polygon| {
+        let whole = [0.0, polygon.segments() as f64];
+        largest_curvature(polygon, whole)
+    });
+    now > BULGE * was
+}
+
+/// What a periodic curve is to be near to.
 struct Closing<'a> {
     polygon: &'a FloatPolygon,
-    /// What it is to be near to.
     points: Vec<DVec3>,
     /// The extrema and inflections of the curve.
     counts: [usize; 2],
-    /// The least extrema that are tried.
-    extrema: usize,
     /// The inflections that it may have beside those of the curve.
     bends: usize,
     /// The inflections asked for.
@@ -84,13 +100,11 @@ impl<'a> Closing<'a> {
         let mut points = sampled(polygon, samples_of(polygon));
         points.pop();
         points.retain(|point| gap == 0.0 || point.distance(middle) > BESIDE * gap);
-        let added = added_by_joint([polygon; 2], true, tolerance);
-        let [own, inflections] = counts;
+        let [_, inflections] = counts;
         Self {
             polygon,
             points,
             counts,
-            extrema: own + added,
             bends: inflections % 2,
             inflections: (inflections % 2 == 0).then_some(inflections),
             tolerance,
@@ -105,68 +119,52 @@ impl<'a> Closing<'a> {
         progress: &Progress,
     ) -> Result<Self, MergeError> {
         let between = blend(polygon, polygon).ok_or(MergeError::NoBlend)?;
-        let [blended, bends] = counts_of([&between], progress)?;
-        let joints = [[polygon, &between], [&between, polygon]];
-        let added = joints.map(|pair| added_by_joint(pair, true, tolerance));
+        let [_, bends] = counts_of([&between], progress)?;
         let mut points = sampled(polygon, samples_of(polygon));
         points.pop();
         points.extend(sampled(&between, BLEND_SAMPLES));
         points.pop();
         // Beside a blend that bends to one side a flat end must not wave.
-        let [own, inflections] = counts;
+        let [_, inflections] = counts;
         let is_plain = bends == 0 && inflections % 2 == 0;
         Ok(Self {
             polygon,
             points,
             counts,
-            extrema: own + blended + added.into_iter().sum::<usize>(),
             bends,
             inflections: is_plain.then_some(inflections),
             tolerance,
         })
     }
 
-    /// The first curve within the tolerance that has one of the numbers of extrema; else the nearest one.
-    fn search(&self, progress: &Progress) -> Result<Merged, MergeError> {
+    /// The curve with the fewest extrema within the tolerance; else the nearest one.
+    fn fitted(&self, progress: &Progress) -> Result<Merged, MergeError> {
         let polygon = self.polygon;
         let points: Vec<DVec2> = self.points.iter().map(|point| point.truncate()).collect();
-        let least = self.extrema + self.extrema % 2;
-        let mut nearest: Option<Merged> = None;
-        for extrema in (0..TRIED).map(|more| least + 2 * more) {
-            let wanted = PlaneFit {
-                degree: polygon.degree(),
-                periodic: true,
-                most: Some((MOST * polygon.vertices().len()).max(SMALLEST)),
-                extrema: Extrema::Exactly(extrema),
-                inflections: self.inflections,
-                tolerance: Some(KEPT * self.tolerance),
-                outliers: Some(Vec::new()),
-                of_curve: true,
-                ..PlaneFit::default()
-            };
-            let found = fit_plane(&points, &wanted, &progress.hurried(SHARE));
-            if progress.is_cancelled() && !progress.is_late() {
-                return Err(MergeError::Cancelled);
-            }
-            let closed = match found {
-                Err(FitError::Cancelled) => return Err(MergeError::Cancelled),
-                Ok(found) if found.holds => found.polygon,
-                _ => continue,
-            };
-            let endless = progress.without_limit();
-            let [_, after] = counts_of([&closed], &endless)?;
-            let closed = measured(polygon, closed, [self.counts[0], extrema], &endless)?;
-            let waves = after.saturating_sub(self.counts[1] + self.bends);
-            let closed = Merged { waves, ..closed };
-            if closed.deviation <= self.tolerance {
-                return Ok(closed);
-            }
-            let is_nearer = |known: &Merged| closed.deviation < known.deviation;
-            if nearest.as_ref().is_none_or(is_nearer) {
-                nearest = Some(closed);
-            }
+        let wanted = PlaneFit {
+            degree: polygon.degree(),
+            periodic: true,
+            most: Some((MOST * polygon.vertices().len()).max(SMALLEST)),
+            inflections: self.inflections,
+            tolerance: Some(KEPT * self.tolerance),
+            outliers: Some(Vec::new()),
+            of_curve: true,
+            ..PlaneFit::default()
+        };
+        let found = fit_plane(&points, &wanted, progress);
+        if progress.is_cancelled() && !progress.is_late() {
+            return Err(MergeError::Cancelled);
         }
-        nearest.ok_or(MergeError::NotFound)
+        let closed = match found {
+            Err(FitError::Cancelled) => return Err(MergeError::Cancelled),
+            Ok(found) if found.holds => found.polygon,
+            _ => return Err(MergeError::NotFound),
+        };
+        let endless = progress.without_limit();
+        let [extrema, after] = counts_of([&closed], &endless)?;
+        let closed = measured(polygon, closed, [self.counts[0], extrema], &endless)?;
+        let waves = after.saturating_sub(self.counts[1] + self.bends);
+        Ok(Merged { waves, ..closed })
     }
 }
 

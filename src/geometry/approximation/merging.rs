@@ -68,7 +68,7 @@ const BLEND_SAMPLES: [usize; 2] = [2 * SAMPLES, 200];
 const SHARED: f64 = 1e-12;
 
 /// The share of the time that is left for each number of extrema.
-pub(super) const SHARE: f64 = 0.5;
+const SHARE: f64 = 0.5;
 
 /// Two curves that became one.
 #[derive(Clone, Debug, PartialEq)]
@@ -433,11 +433,7 @@ impl Search<'_> {
 
 /// The extrema that the joint adds: each change of sign between the slope of the curvature before it, the jump of the
 /// curvature there, and the slope behind it.
-pub(super) fn added_by_joint(
-    [first, second]: [&FloatPolygon; 2],
-    planar: bool,
-    tolerance: f64,
-) -> usize {
+fn added_by_joint([first, second]: [&FloatPolygon; 2], planar: bool, tolerance: f64) -> usize {
     let [before, behind] = [first.end_jet(End::Finish), second.end_jet(End::Start)];
     let jump = behind.curvature_of(planar) - before.curvature_of(planar);
     let size = first.size().max(second.size());
