@@ -346,6 +346,7 @@ fn the_result_at_one_end_is_not_shown_at_the_other() {
     script.end_fit_action(EndFitAction::Choose(End::Start));
     assert!(outcome(&mut script).is_some());
     // What corrects all ends is told at each.
+    script.end_fit_action(EndFitAction::SetPoint(DVec3::new(-61.0, 0.0, 0.0)));
     script.end_fit_action(EndFitAction::Repeat);
     script.end_fit_action(EndFitAction::Choose(End::Finish));
     assert!(outcome(&mut script).is_some());
