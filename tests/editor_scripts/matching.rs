@@ -300,6 +300,34 @@ fn a_match_that_makes_a_bend_much_sharper_says_so() {
 }
 
 #[test]
+fn a_follower_that_changes_its_character_is_named() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G2, true);
+    let polygon = curve(&script, ids[0]).polygon;
+    let last = polygon.vertices().len() - 1;
+    // By hardly anything, then out of the plane.
+    for (by, told) in [(1e-6 * DVec3::X, false), (2.0 * DVec3::Z, true)] {
+        let mut vertices = polygon.vertices().to_vec();
+        vertices[last] += by;
+        let moved = FloatPolygon::new(polygon.degree(), vertices, None, false);
+        let edit = Edit::SetPolygon {
+            curve: ids[0],
+            polygon: moved.expect("a polygon"),
+        };
+        let note = script.editor.apply("Move", vec![edit]).expect("a step");
+        let names = note.text.contains("“second” follows: ");
+        assert_eq!(names, told, "{}", note.text);
+        assert_eq!(
+            note.text.contains("it leaves its plane"),
+            told,
+            "{}",
+            note.text
+        );
+        assert_eq!((note.warns, note.offers_undo), (told, told));
+    }
+}
+
+#[test]
 fn curves_do_not_follow_each_other_in_a_circle() {
     let (mut script, ids) = script();
     pick_end(&mut script, ids, Continuity::G1, true);
