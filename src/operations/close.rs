@@ -10,6 +10,7 @@ use super::fit_piece::features;
 use super::inputs::Inputs;
 use super::join::{ALSO_WITHIN, WITHIN};
 use super::lists::given_count;
+use super::make_symmetric::smaller_side;
 use super::matches::without_match;
 use super::operands::Operands;
 use super::operation::Operation;
@@ -28,6 +29,9 @@ use crate::geometry::{
 /// A new curve that bends so many times as sharply as the curve, and as a blend of its ends, is no use.
 const SHARPER: f64 = 4.0;
 const SHARPER_THAN_BLEND: f64 = 1.25;
+
+/// A curve is straight if its box is no wider than this share of its size.
+const STRAIGHT: f64 = 1e-9;
 
 /// How long a new curve near the curve may take.
 const NEAR: Duration = Duration::from_secs(10);
@@ -91,17 +95,31 @@ fn bridged(input: &Operands, found: &Bridged) -> Result<Outcome, OperationError>
     let knuckle = knuckle(found).filter(|_| fault.is_none());
     outcome.warnings.extend(knuckle);
     let crossing = new_crossing(&[&curve.polygon], &found.polygon);
-    if fault.is_some() || crossing.is_some() {
+    // There is nothing to go round.
+    let straight = (smaller_side(&curve.polygon) <= STRAIGHT * curve.polygon.size())
+        .then(|| "A straight curve folds back on itself when it is closed".to_owned());
+    if fault.is_some() || crossing.is_some() || straight.is_some() {
         let failed = Requirement::Failed { left: None };
         outcome.requirements = vec![(id, vec![failed])];
     }
-    outcome.warnings.extend(crossing);
+    outcome.warnings.extend(crossing.or(straight));
+    let advice = match overlaps(&curve.polygon) {
+        true => "the ends overlap, trim the curve first",
+        false => "turn the ends towards each other",
+    };
     outcome
         .warnings
-        .extend(fault.map(|fault| format!("{fault}: turn the ends towards each other")));
+        .extend(fault.map(|fault| format!("{fault}: {advice}")));
     outcome.annotations = annotations(found);
     outcome.joint = Some(found.joint);
     Ok(outcome)
+}
+
+/// Whether each end runs past the other one.
+fn overlaps(polygon: &FloatPolygon) -> bool {
+    let [start, finish] = End::BOTH.map(|end| polygon.end_jet(end));
+    let way = start.point - finish.point;
+    start.first.dot(way) < 0.0 && finish.first.dot(way) < 0.0
 }
 
 /// A periodic curve near the curve, with a blend between ends that are apart; `None` if there is none with nothing to

@@ -167,7 +167,7 @@ fn nearest(
 }
 
 /// The smaller side of the box around samples of a planar curve; of one in space the middle one.
-fn smaller_side(polygon: &FloatPolygon) -> f64 {
+pub(super) fn smaller_side(polygon: &FloatPolygon) -> f64 {
     let samples = 0..=SAMPLES * polygon.segments();
     let samples = samples.map(|sample| polygon.point(sample as f64 / SAMPLES as f64));
     let box_of = |[low, high]: [DVec3; 2], at: DVec3| [low.min(at), high.max(at)];
