@@ -1345,10 +1345,10 @@ fn a_gap_that_no_bridge_fits_is_closed_by_a_blend() {
         (90.663, 44.225),
         (-152.715, 88.549),
     ];
-    let cases: [(&str, &[(f64, f64)], usize, usize, f64); 3] = [
-        ("ring", &ring, 4, 2, 0.2),
-        ("eight", &eight, 6, 2, 0.1),
-        ("ellipse", &ellipse, 4, 0, 0.07),
+    let cases = [
+        ("ring", &ring[..], 4, 2, 0.2),
+        ("eight", &eight[..], 6, 2, 0.1),
+        ("ellipse", &ellipse[..], 4, 0, 0.07),
     ];
     for (name, points, extrema, inflections, sharpest) in cases {
         let open = FloatPolygon::planar(5, points).expect("a polygon");
