@@ -93,12 +93,7 @@ pub enum Loss {
         kind: PolygonKind,
     },
     /// The curve itself: it is written as a chain of cubic Béziers.
-    Cubics {
-        /// Their number.
-        count: usize,
-        /// How far the chain is off, measured.
-        off: f64,
-    },
+    Cubics(CubicDifference),
     /// Digits: the float vertices that can be had back from the written polygon are off.
     Digits {
         /// The polygon written.
@@ -113,6 +108,64 @@ pub enum Loss {
         /// The polygon written.
         kind: PolygonKind,
     },
+}
+
+/// The difference between a curve and the cubic Béziers that are written, or between several and theirs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CubicDifference {
+    /// The number of Béziers.
+    pub count: usize,
+    /// How far they are off, measured.
+    pub off: f64,
+    /// The inflections of the curve, and as written.
+    pub inflections: [usize; 2],
+    /// The curvature extrema of the curve, and as written.
+    pub curvature_extrema: [usize; 2],
+    /// Whether the curvature jumps at joints.
+    pub jumps: bool,
+}
+
+impl CubicDifference {
+    /// Whether it is of the same kind: then sums say what becomes of each.
+    fn is_like(&self, other: &Self) -> bool {
+        let kind = |it: &Self| {
+            let kinds = [it.inflections, it.curvature_extrema];
+            (kinds.map(|[before, now]| before.cmp(&now)), it.jumps)
+        };
+        kind(self) == kind(other)
+    }
+
+    /// Add another one.
+    fn add(&mut self, other: &Self) {
+        self.count += other.count;
+        self.off = self.off.max(other.off);
+        for side in 0..2 {
+            self.inflections[side] += other.inflections[side];
+            self.curvature_extrema[side] += other.curvature_extrema[side];
+        }
+    }
+}
+
+impl fmt::Display for CubicDifference {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let cubics = counted(self.count, "cubic Bézier", "cubic Béziers");
+        let off = rounded_up(self.off);
+        write!(formatter, "written as {cubics}, up to {off} off")?;
+        let counts = [
+            ("curvature extrema", self.curvature_extrema),
+            ("inflections", self.inflections),
+        ];
+        for (kind, [before, now]) in counts
+            .into_iter()
+            .filter(|(_, [before, now])| before != now)
+        {
+            write!(formatter, "; {kind}: {before} before, {now} as written")?;
+        }
+        match self.jumps {
+            true => formatter.write_str("; the curvature jumps at the joints"),
+            false => Ok(()),
+        }
+    }
 }
 
 impl LossReport {
@@ -288,16 +341,7 @@ impl<'l> Alike<'l> {
                 *distance = distance.max(*farther);
                 *curve = curve.max(*off);
             }
-            (
-                Loss::Cubics { count, off },
-                Loss::Cubics {
-                    count: more,
-                    off: farther,
-                },
-            ) => {
-                *count += more;
-                *off = off.max(*farther);
-            }
+            (Loss::Cubics(own), Loss::Cubics(other)) if own.is_like(other) => own.add(other),
             (Loss::Name { written }, Loss::Name { written: other }) => {
                 self.differs |= written != other;
             }
@@ -351,10 +395,7 @@ impl Loss {
             Self::NoWayBack { kind } => {
                 format!("the {kind} polygon written cannot be converted back to a float polygon")
             }
-            Self::Cubics { count, off } => {
-                let cubics = counted(*count, "cubic Bézier", "cubic Béziers");
-                format!("written as {cubics}, up to {} off", rounded_up(*off))
-            }
+            Self::Cubics(difference) => difference.to_string(),
             Self::Periodic => "written as an open curve that ends where it begins".to_owned(),
             Self::PolygonWeights { kind } => {
                 format!("the {kind} polygon is drawn without its weights")
@@ -393,8 +434,12 @@ mod tests {
         for index in 1..=60 {
             let name = format!("c{index}");
             report.losses.push((name.clone(), Loss::Colour));
-            let (count, off) = (index, f64::from(index as u8) / 1024.0);
-            report.losses.push((name, Loss::Cubics { count, off }));
+            let difference = CubicDifference {
+                count: index,
+                off: f64::from(index as u8) / 1024.0,
+                ..KEPT
+            };
+            report.losses.push((name, Loss::Cubics(difference)));
         }
         let written = |name: &str| Loss::Name {
             written: name.to_owned(),
@@ -411,6 +456,41 @@ mod tests {
         assert!(
             told.ends_with("\n“a/b” and “c/d”: names are written as SVG allows"),
             "{told}"
+        );
+    }
+
+    /// A difference without a change of features.
+    const KEPT: CubicDifference = CubicDifference {
+        count: 1,
+        off: 0.0,
+        inflections: [1; 2],
+        curvature_extrema: [2; 2],
+        jumps: false,
+    };
+
+    #[test]
+    fn curves_whose_features_change_alike_are_told_together() {
+        let mut report = LossReport::new("SVG");
+        let mut add = |name: &str, curvature_extrema, jumps| {
+            let difference = CubicDifference {
+                curvature_extrema,
+                jumps,
+                ..KEPT
+            };
+            let loss = Loss::Cubics(difference);
+            report.losses.push((name.to_owned(), loss));
+        };
+        add("more", [2, 5], true);
+        add("kept", [3, 3], false);
+        add("fewer", [3, 1], true);
+        add("more too", [0, 2], true);
+        assert_eq!(
+            report.to_string(),
+            "“more” and “more too”: written as 2 cubic Béziers, up to 0 off; \
+             curvature extrema: 2 before, 7 as written; the curvature jumps at the joints\n\
+             “kept”: written as 1 cubic Bézier, up to 0 off\n\
+             “fewer”: written as 1 cubic Bézier, up to 0 off; \
+             curvature extrema: 3 before, 1 as written; the curvature jumps at the joints"
         );
     }
 

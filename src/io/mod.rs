@@ -55,7 +55,7 @@ pub use file_match::{FileMatch, MatchSource};
 pub use fingerprint::Fingerprint;
 pub use format::{ExportRow, Exporter, Format};
 pub use gpx::GPX;
-pub use loss::{Export, Loss, LossReport};
+pub use loss::{CubicDifference, Export, Loss, LossReport};
 pub use original::{Original, Rest, WrittenBack};
 pub use point_table::POINT_TABLE;
 pub use project::PROJECT;

@@ -4,12 +4,16 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 use kurbo::{
-    BezPath, CurveFitSample, ParamCurve, ParamCurveFit, ParamCurveNearest, PathSeg, Point, Vec2,
+    CubicBez, CurveFitSample, ParamCurve, ParamCurveFit, ParamCurveNearest, Point, Vec2,
     fit_to_bezpath_opt,
 };
 
+use super::cubic_signs::{ChainFeatures, Cubic};
 use super::drawing::Nurbs;
+use super::fair_chain::fair_chain;
+use crate::geometry::features::{Feature, Features};
 use crate::geometry::{BezierPolygon, FloatPolygon};
+use crate::io::loss::CubicDifference;
 
 /// How far a chain may be from its curve, by the size of the curve.
 const WITHIN: f64 = 1e-4;
@@ -24,50 +28,65 @@ const ACCURACY: f64 = 1e-3;
 pub(super) struct Cubics {
     /// The chain, with inner knots of multiplicity 3.
     pub(super) chain: Nurbs,
-    /// The number of Béziers.
-    pub(super) count: usize,
-    /// The largest distance between chain and curve, measured at samples of both.
-    pub(super) off: f64,
+    /// Its difference from the curve.
+    pub(super) difference: CubicDifference,
 }
 
 impl Cubics {
-    /// Find the fewest Béziers within a length, or 1e-4 of its size, of a planar curve, whose joints lie on the curve,
-    /// with its tangents there.
+    /// Find few Béziers within a length, or 1e-4 of its size, of a planar curve, whose joints lie on the
+    /// curve, with its tangents there. They keep its features where such a chain is found.
     pub(super) fn along(polygon: &FloatPolygon, within: Option<f64>) -> Self {
         let size = BezierPolygon::from_float(polygon).size();
         let tolerance = within.unwrap_or(WITHIN * size);
-        let path = fit_to_bezpath_opt(&Source(polygon), tolerance);
-        let mut points = path.segments().fold(Vec::new(), |mut points, segment| {
-            let cubic = segment.to_cubic();
-            if points.is_empty() {
-                points.push(cubic.p0);
-            }
-            points.extend([cubic.p1, cubic.p2, cubic.p3]);
-            points
-        });
-        if let (true, Some(first)) = (polygon.is_periodic(), points.first().copied())
-            && let Some(last) = points.last_mut()
+        let features = Features::new(polygon);
+        let mut chain = fair_chain(polygon, &features, tolerance)
+            .unwrap_or_else(|| nearest_chain(polygon, tolerance));
+        let is_closed = polygon.is_periodic();
+        if let (true, Some([start, ..])) = (is_closed, chain.first().copied())
+            && let Some([.., end]) = chain.last_mut()
         {
-            *last = first;
+            *end = start;
         }
-        let count = points.len() / 3;
+        let written = ChainFeatures::of(&chain, is_closed);
+        let count = chain.len();
         let inner = (0..=count).flat_map(|knot| [knot as f64; 3]);
         let knots = [0.0].into_iter().chain(inner).chain([count as f64]);
+        let start = chain.first().map(|[start, ..]| *start);
+        let others = chain.iter().flat_map(|[_, others @ ..]| *others);
         Self {
-            off: farthest(polygon, &path, ACCURACY * tolerance),
+            difference: CubicDifference {
+                count,
+                off: farthest(polygon, &chain, ACCURACY * tolerance),
+                inflections: [features.count(Feature::Inflection), written.inflections],
+                curvature_extrema: [
+                    features.count(Feature::CurvatureExtremum),
+                    written.curvature_extrema,
+                ],
+                jumps: written.jumps,
+            },
             chain: Nurbs {
                 degree: 3,
                 knots: knots.collect(),
-                points: points
-                    .iter()
-                    .map(|it| DVec3::new(it.x, it.y, 0.0))
+                points: start
+                    .into_iter()
+                    .chain(others)
+                    .map(|it| it.extend(0.0))
                     .collect(),
                 weights: None,
                 periodic: false,
             },
-            count,
         }
     }
+}
+
+/// The fewest Béziers within a length. Their curvature jumps at the joints.
+fn nearest_chain(polygon: &FloatPolygon, tolerance: f64) -> Vec<Cubic> {
+    let path = fit_to_bezpath_opt(&Source(polygon), tolerance);
+    let cubics = path.segments().map(|segment| {
+        let cubic = segment.to_cubic();
+        [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(|it| DVec2::new(it.x, it.y))
+    });
+    cubics.collect()
 }
 
 /// A curve over 0 to 1.
@@ -104,8 +123,14 @@ impl ParamCurveFit for Source<'_> {
 }
 
 /// How far samples of a curve and of a chain are from the other one.
-fn farthest(polygon: &FloatPolygon, path: &BezPath, accuracy: f64) -> f64 {
-    let segments: Vec<PathSeg> = path.segments().collect();
+fn farthest(polygon: &FloatPolygon, chain: &[Cubic], accuracy: f64) -> f64 {
+    let segments: Vec<CubicBez> = chain
+        .iter()
+        .map(|cubic| {
+            let [a, b, c, d] = cubic.map(|it| vector(it).to_point());
+            CubicBez::new(a, b, c, d)
+        })
+        .collect();
     let share = |sample: usize| sample as f64 / SAMPLES as f64;
     let of_chain = segments
         .iter()
@@ -126,6 +151,48 @@ fn farthest(polygon: &FloatPolygon, path: &BezPath, accuracy: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// A wave with five bends.
+    fn wave() -> FloatPolygon {
+        let heights = [
+            0.0, 3.0, 8.0, -6.0, -9.0, 7.0, 10.0, 2.0, -8.0, -4.0, 5.0, 6.0,
+        ];
+        let points: Vec<(f64, f64)> = (0..).map(|it| 10.0 * f64::from(it)).zip(heights).collect();
+        FloatPolygon::planar(5, &points).expect("a polygon")
+    }
+
+    #[test]
+    fn features_are_kept_and_the_curvature_does_not_jump() {
+        let polygon = wave();
+        for within in [None, Some(0.1), Some(1e-4)] {
+            let found = Cubics::along(&polygon, within).difference;
+            let [before, now] = found.inflections;
+            assert!(before >= 2 && now == before, "{found:?}");
+            let [before, now] = found.curvature_extrema;
+            assert!(before >= 3 && now == before, "{found:?}");
+            assert!(
+                !found.jumps && found.off <= within.unwrap_or(0.02),
+                "{found:?}"
+            );
+        }
+        let nearest = ChainFeatures::of(&nearest_chain(&polygon, 1e-3), false);
+        assert!(nearest.jumps, "{nearest:?}");
+    }
+
+    #[test]
+    fn features_that_are_not_kept_are_counted() {
+        // A circle has one curvature extremum at most, by rounding of the weight; cubics near it have more.
+        let corner = 0.5_f64.sqrt();
+        let square = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+        let bezier = BezierPolygon::new(2, square.to_vec(), Some(vec![1.0, corner, 1.0]));
+        let arc = bezier.and_then(|it| it.to_float()).expect("an arc");
+        let found = Cubics::along(&arc, Some(1e-6)).difference;
+        assert_eq!(found.inflections, [0, 0]);
+        let [before, now] = found.curvature_extrema;
+        assert!(now > before, "{found:?}");
+        let told = format!("; curvature extrema: {before} before, {now} as written");
+        assert!(found.to_string().contains(&told), "{found}");
+    }
+
     #[test]
     fn a_chain_is_near_its_curve_and_meets_it_at_its_ends() {
         for (degree, periodic) in [(4, false), (5, true), (9, false), (9, true)] {
@@ -143,8 +210,16 @@ mod tests {
             let polygon = FloatPolygon::new(degree, vertices, None, periodic).expect("a polygon");
             let found = Cubics::along(&polygon, None);
             let size = BezierPolygon::from_float(&polygon).size();
-            assert!(found.off <= 2.0 * WITHIN * size, "{degree}: {}", found.off);
-            assert!((2..=24).contains(&found.count), "{degree}: {}", found.count);
+            assert!(
+                found.difference.off <= 2.0 * WITHIN * size,
+                "{degree}: {}",
+                found.difference.off
+            );
+            assert!(
+                (2..=24).contains(&found.difference.count),
+                "{degree}: {}",
+                found.difference.count
+            );
             let points = &found.chain.points;
             assert_eq!(found.chain.knots.len(), points.len() + 4);
             let ends = [0.0, polygon.segments() as f64].map(|u| polygon.point(u));

@@ -221,7 +221,7 @@ pub fn svg_path(document: &Document) -> Result<(String, LossReport), WriteError>
     losses.losses.retain(|(_, loss)| {
         matches!(
             loss,
-            Loss::Cubics { .. } | Loss::Reference | Loss::LeftOut { .. }
+            Loss::Cubics(_) | Loss::Reference | Loss::LeftOut { .. }
         )
     });
     Ok((data, losses))

@@ -31,7 +31,7 @@ pub(in crate::io) struct Manner {
 pub(in crate::io) enum Written {
     /// On the knots of one of their polygons.
     Knots(PolygonKind),
-    /// As Béziers up to degree 3; other planar curves as the fewest cubics within a length, or 1e-4 of their size.
+    /// As Béziers up to degree 3; other planar curves as few cubics within a length, or 1e-4 of their size.
     Cubics(Option<f64>),
 }
 
@@ -137,8 +137,8 @@ impl Written {
         let is_cubic = polygon.degree() <= CUBIC && !polygon.is_rational();
         match self {
             Self::Cubics(within) if polygon.is_planar() && !is_cubic => {
-                let Cubics { chain, count, off } = Cubics::along(polygon, within);
-                losses.add(curve, Loss::Cubics { count, off });
+                let Cubics { chain, difference } = Cubics::along(polygon, within);
+                losses.add(curve, Loss::Cubics(difference));
                 Shape::Nurbs(chain)
             }
             Self::Cubics(_) => spline(curve, PolygonKind::Bezier, losses),
