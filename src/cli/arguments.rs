@@ -133,14 +133,16 @@ enum Command {
         /// stays a reference.
         #[arg(long)]
         to_float: bool,
-        /// How far curves may move that get a lower degree or a float polygon; without it 1e-4 of their size
-        #[arg(long, value_name = "LENGTH", value_parser = tolerance, requires = "nearing")]
+        /// How far curves may move that are written as others; without it 1e-4 of their size
+        #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
         tolerance: Option<f64>,
         /// Write so many points on the curve, not its vertices, as `points` does
-        #[arg(long, value_name = "N", value_parser = count, conflicts_with_all = ["polygon", "nearing"])]
+        #[arg(long, value_name = "N", value_parser = count,
+            conflicts_with_all = ["polygon", "nearing", "tolerance"])]
         points: Option<usize>,
         /// Write as few points on the curve as keep the polyline through them this near to it
-        #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with_all = ["points", "polygon", "nearing"])]
+        #[arg(long, value_name = "T", value_parser = tolerance,
+            conflicts_with_all = ["points", "polygon", "nearing", "tolerance"])]
         chord: Option<f64>,
         #[command(flatten)]
         export: ExportArguments,
@@ -286,7 +288,7 @@ pub(super) enum Task {
         to_float: bool,
         /// The highest degree that is written.
         most_degree: Option<usize>,
-        /// How far curves may move that get a lower degree or a float polygon.
+        /// How far curves may move that are written as others.
         tolerance: Option<f64>,
         /// What is written and how.
         export: ExportArguments,
@@ -391,6 +393,11 @@ impl Arguments {
                     paper: paper_space,
                 });
                 let destination = destination("convert", out, to_format)?;
+                let is_near = degree_at_most.is_some() || to_float || export.has_preset();
+                if tolerance.is_some() && !is_near && !destination.holds_cubics_alone() {
+                    let needed = "--tolerance needs --degree-at-most, --to-float, --preset, or SVG or GLIF as OUT";
+                    return Err(missing("convert", needed));
+                }
                 let density = points.map(|count| Density::Count(count, Spacing::ArcLength));
                 match density.or(chord.map(|it| Density::Tolerance(it, None))) {
                     Some(density) => Task::Points {

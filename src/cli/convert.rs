@@ -23,7 +23,7 @@ pub(super) struct Conversion {
     pub(super) to_float: bool,
     /// The highest degree that is written.
     pub(super) most_degree: Option<usize>,
-    /// How far curves may move that get a lower degree or a float polygon.
+    /// How far curves may move that are written as others.
     pub(super) tolerance: Option<f64>,
     /// What is written and how.
     pub(super) export: ExportArguments,
@@ -65,7 +65,14 @@ impl Conversion {
         match self.export.choice(format, &document)? {
             None => {
                 let document = self.lowered(document, None)?;
-                let export = format.write(&document, self.polygon);
+                let choice = ExportChoice {
+                    tolerance: self.tolerance,
+                    ..ExportChoice::new(format)
+                };
+                let export = match choice.holds_cubics_alone() {
+                    true => choice.write(&document),
+                    false => format.write(&document, self.polygon),
+                };
                 export.with_context(place)
             }
             Some((choice, items)) => {

@@ -10,8 +10,8 @@ use crate::document::Document;
 use crate::geometry::expressions::LengthUnit;
 use crate::io::exchange::import::ImportFilter;
 use crate::io::{
-    ColumnChoice, Export, FileError, FileProblem, Format, FormatError, Problem, ReadError, Reading,
-    disk, formats, shown_path,
+    ColumnChoice, Export, ExportChoice, FileError, FileProblem, Format, FormatError, Problem,
+    ReadError, Reading, disk, formats, shown_path,
 };
 
 /// The name that stands for the standard input or output.
@@ -150,6 +150,12 @@ impl Destination {
             Self::Standard(format) | Self::File(_, Some(format)) => Ok(*format),
             Self::File(path, None) => formats::to_write(path).map_err(FileError::at(path)),
         }
+    }
+
+    /// Whether its format holds cubic Béziers alone.
+    pub(super) fn holds_cubics_alone(&self) -> bool {
+        self.format()
+            .is_ok_and(|format| ExportChoice::new(format).holds_cubics_alone())
     }
 
     /// Whether it is the standard output.

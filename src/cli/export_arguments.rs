@@ -38,6 +38,11 @@ pub(super) struct ExportArguments {
 }
 
 impl ExportArguments {
+    /// Whether a program is named.
+    pub(super) fn has_preset(&self) -> bool {
+        self.preset.is_some()
+    }
+
     /// The item that is named, or the first of several.
     pub(super) fn item(&self) -> Option<&str> {
         self.items.first().map(String::as_str)

@@ -234,6 +234,34 @@ fn degrees_are_lowered_within_a_tolerance_that_is_measured() {
     );
 }
 
+#[test]
+fn cubics_keep_features_or_say_what_changes() {
+    let folder = Folder::new();
+    let written = |example: &str, file: &str, tolerance: &[&str]| {
+        folder.done(&["example", example, "a.batten"]);
+        let (_, err) = folder.done(&[&["convert", "a.batten", file], tolerance].concat());
+        let line = err.lines().find(|line| line.contains("written as "));
+        line.expect("a remark on the cubics").to_owned()
+    };
+    let cubics = |line: &str| -> usize {
+        let (_, count) = line.split_once("written as ").expect("a count");
+        let (count, _) = count.split_once(' ').expect("a count");
+        count.parse().expect("a count")
+    };
+    for file in ["a.svg", "a.glif"] {
+        let kept = written("s-curve", file, &[]);
+        assert!(kept.ends_with(" off"), "{kept}");
+        let arc = written("arc", file, &[]);
+        assert!(
+            arc.ends_with(" off; curvature extrema: 1 before, 3 as written"),
+            "{arc}"
+        );
+        let [coarse, fine] =
+            ["0.1", "1e-5"].map(|it| written("s-curve", file, &["--tolerance", it]));
+        assert!(cubics(&coarse) < cubics(&fine), "{coarse}\n{fine}");
+    }
+}
+
 /// A drawing in millimetres: two lines on Deck, one on Keel, and a hatch.
 const DRAWING: &str = "  0\nSECTION\n  2\nHEADER\n  9\n$INSUNITS\n 70\n4\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n\
   0\nLINE\n  8\nDeck\n 10\n0\n 20\n0\n 11\n3\n 21\n4\n\
