@@ -107,12 +107,24 @@ const SITUATIONS: [(&str, &[Event]); 11] = [
     ),
 ];
 
+/// Operations that search for seconds are tried in some situations alone: they do the same in all.
+const SLOW: [&str; 1] = ["close"];
+
+fn is_slow(operation: &Operation) -> bool {
+    SLOW.contains(&operation.name)
+}
+
 #[test]
 fn every_command_in_every_situation_is_undone_to_the_bit() {
     let mut failures = Failures::default();
     for case in cases() {
-        for (situation, events) in SITUATIONS {
+        for (number, (situation, events)) in SITUATIONS.into_iter().enumerate() {
             for asked in every_command().into_iter().chain(every_replacement()) {
+                let is_slow =
+                    matches!(&asked, Event::Command(Command::Operation(it)) if is_slow(it));
+                if is_slow && number % 5 != 0 {
+                    continue;
+                }
                 let played = play(&case, |player| {
                     player.play(events)?;
                     player.play(std::slice::from_ref(&asked))?;
@@ -167,6 +179,9 @@ fn every_operation_applied_or_cancelled_is_undone_to_the_bit() {
         for operation in ALL {
             for (number, ending) in endings.iter().enumerate() {
                 let cancels = number > 1;
+                if is_slow(operation) && number % 3 != 0 {
+                    continue;
+                }
                 let played = play(&case, |player| {
                     let before = player.window.document().clone();
                     let has_parameters = !operation.parameters.is_empty();
