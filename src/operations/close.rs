@@ -30,6 +30,9 @@ use crate::geometry::{
 const SHARPER: f64 = 4.0;
 const SHARPER_THAN_BLEND: f64 = 1.25;
 
+/// Ends that overlap are no farther apart than this share of the size.
+const OVERLAP: f64 = 0.25;
+
 /// A curve is straight if its box is no wider than this share of its size.
 const STRAIGHT: f64 = 1e-9;
 
@@ -115,11 +118,12 @@ fn bridged(input: &Operands, found: &Bridged) -> Result<Outcome, OperationError>
     Ok(outcome)
 }
 
-/// Whether each end runs past the other one.
+/// Whether ends that are near to each other each run past the other one.
 fn overlaps(polygon: &FloatPolygon) -> bool {
     let [start, finish] = End::BOTH.map(|end| polygon.end_jet(end));
     let way = start.point - finish.point;
-    start.first.dot(way) < 0.0 && finish.first.dot(way) < 0.0
+    let is_near = way.length() <= OVERLAP * BezierPolygon::from_float(polygon).size();
+    is_near && start.first.dot(way) < 0.0 && finish.first.dot(way) < 0.0
 }
 
 /// A periodic curve near the curve, with a blend between ends that are apart; `None` if there is none with nothing to
