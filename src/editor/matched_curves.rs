@@ -2,7 +2,8 @@
 
 use crate::document::{CurveId, Document, Edit, quoted};
 use crate::editor::same_shape::feature_change;
-use crate::geometry::{FloatPolygon, largest_curvature, rounded_up, significant};
+use crate::geometry::distance::SideDeviation;
+use crate::geometry::{FloatPolygon, Progress, largest_curvature, rounded_up, significant};
 
 /// A curve that moves by less than this share of its size moves by rounding.
 const STILL: f64 = 1e-9;
@@ -27,7 +28,7 @@ pub(super) fn matched(curves: &[CurveId], documents: [&Document; 2]) -> (String,
     let mut bends = false;
     let told = curves.iter().filter_map(|id| {
         let [before, after] = polygons(*id, documents)?;
-        let moved = moved(before, after)?;
+        let moved = moved(before, after).filter(|_| !stays(before, after))?;
         let name = quoted(documents[1].name(*id)?);
         let changes = changes(before, after);
         bends |= !changes.is_empty();
@@ -55,8 +56,10 @@ pub(super) fn followers(documents: [&Document; 2], matched: &[CurveId]) -> Strin
     });
     let told = following.filter_map(|(id, curve)| {
         let [before, after] = polygons(id, documents)?;
-        moved(before, after)?;
-        let changes = changes(before, after);
+        let changes = match stays(before, after) {
+            true => Vec::new(),
+            false => changes(before, after),
+        };
         (!changes.is_empty())
             .then(|| format!("{} follows: {}", quoted(&curve.name), changes.join("; ")))
     });
@@ -69,10 +72,23 @@ fn polygons(id: CurveId, documents: [&Document; 2]) -> Option<[&FloatPolygon; 2]
     Some([&before?.polygon, &after?.polygon])
 }
 
-/// How far a curve moves, as text; `None` if it is only rounding, or another number of vertices.
+/// Whether a curve moves by rounding alone.
+fn stays(before: &FloatPolygon, after: &FloatPolygon) -> bool {
+    before
+        .deviation(after)
+        .is_ok_and(|moved| moved <= STILL * before.size())
+}
+
+/// How far a curve moves, as text: the distance between both curves, as points that slide along them do not count. Of
+/// curves with more segments than are compared a bound, which takes no time.
 fn moved(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
-    let moved = before.deviation(after).ok()?;
-    (moved > STILL * before.size()).then(|| rounded_up(moved))
+    let is_compared = before.segments().max(after.segments()) <= COMPARED;
+    let measured = is_compared.then(|| {
+        let progress = Progress::default();
+        SideDeviation::both_ways([before, after], &progress).ok()
+    });
+    let bound = || before.deviation(after).ok();
+    measured.flatten().or_else(bound).map(rounded_up)
 }
 
 /// What of a curve's character changes: its features, its smallest radius, whether it is planar.

@@ -30,6 +30,9 @@ use crate::geometry::{
 const SHARPER: f64 = 4.0;
 const SHARPER_THAN_BLEND: f64 = 1.25;
 
+/// A bridge that bends so many times as sharply as the curve, and as a blend of its ends, has a lump.
+const LUMP: f64 = 1.25;
+
 /// Ends that overlap are no farther apart than this share of the size.
 const OVERLAP: f64 = 0.25;
 
@@ -60,26 +63,43 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let is_free = count.is_none() && curve.locked_vertices.iter().next().is_none();
     let size = BezierPolygon::from_float(&curve.polygon).size();
     let meets = joint_of(&curve.polygon, &curve.polygon).meets(WITHIN * size);
-    let bridge = || found(close(&curve.polygon, count, progress));
-    let near = || match is_free {
-        true => closed_near(input, size, progress),
+    let near = |sharpest: f64| match is_free {
+        true => closed_near(input, size, sharpest, progress),
         false => Ok(None),
     };
-    if meets && let Some(closed) = near()? {
+    if meets && let Some(closed) = near(f64::INFINITY)? {
         return Ok(closed);
     }
-    let bridged = match bridge() {
+    let found = match found(close(&curve.polygon, count, progress)) {
         Err(OperationError::Cancelled) => return Err(OperationError::Cancelled),
-        found => found.and_then(|found| bridged(input, &found)),
+        found => found,
     };
+    let lump = found.as_ref().ok().and_then(|it| lump(&curve.polygon, it));
+    let bridged = found.and_then(|found| bridged(input, &found));
     let is_clean = bridged.as_ref().is_ok_and(|it| it.requirements.is_empty());
-    if !is_clean
-        && !meets
-        && let Some(closed) = near()?
+    let sharpest = match (is_clean, lump) {
+        (true, lump) => lump.filter(|_| !curve.polygon.is_rational()),
+        (false, _) => Some(f64::INFINITY),
+    };
+    if !meets
+        && let Some(sharpest) = sharpest
+        && let Some(closed) = near(sharpest)?
     {
         return Ok(closed);
     }
     bridged
+}
+
+/// The largest curvature of a bridge, if it is larger than the curve and a blend of its ends ask for.
+fn lump(curve: &FloatPolygon, found: &Bridged) -> Option<f64> {
+    let on_bridge = largest_curvature(&found.polygon, found.joint);
+    let asked = blend(curve, curve).map_or(0.0, |between| sharpest(&between));
+    (on_bridge > LUMP * asked.max(sharpest(curve))).then_some(on_bridge)
+}
+
+/// The largest curvature of a curve.
+fn sharpest(polygon: &FloatPolygon) -> f64 {
+    largest_curvature(polygon, [0.0, polygon.segments() as f64])
 }
 
 /// The curve with a bridge between its ends.
@@ -127,10 +147,11 @@ fn overlaps(polygon: &FloatPolygon) -> bool {
 }
 
 /// A periodic curve near the curve, with a blend between ends that are apart; `None` if there is none with nothing to
-/// warn of.
+/// warn of, or if it bends more sharply than allowed.
 fn closed_near(
     input: &Operands,
     size: f64,
+    most_curvature: f64,
     progress: &Progress,
 ) -> Result<Option<Outcome>, OperationError> {
     let (id, curve) = input.curve()?;
@@ -153,13 +174,11 @@ fn closed_near(
     let spans = (0..segments).map(span).collect();
     let joint = [place(segments), found.polygon.segments() as f64];
     let between = blend(&curve.polygon, &curve.polygon);
-    let sharpest = |polygon: &FloatPolygon| {
-        let whole = [0.0, polygon.segments() as f64];
-        size * largest_curvature(polygon, whole)
-    };
-    let blended = between.as_ref().map_or(0.0, sharpest);
-    let [was, now] = [&curve.polygon, &found.polygon].map(sharpest);
-    let is_sharper = now > SHARPER * was.max(1.0) && now > SHARPER_THAN_BLEND * blended;
+    let relative = |polygon: &FloatPolygon| size * sharpest(polygon);
+    let blended = between.as_ref().map_or(0.0, relative);
+    let [was, now] = [&curve.polygon, &found.polygon].map(relative);
+    let is_sharper = now > SHARPER * was.max(1.0) && now > SHARPER_THAN_BLEND * blended
+        || now > size * most_curvature;
     // Between ends on both sides of the curve nothing can lie that does not cross it.
     let is_across = between.is_some_and(|between| cross(&[&curve.polygon, &between]));
     let found_crossing = new_crossing(&[&curve.polygon], &found.polygon);
@@ -187,9 +206,10 @@ fn closed_near(
         Figure::count("extrema", "Curvature extrema", now),
     ];
     let moved = significant(found.deviation, 3);
-    let why = match gap <= tolerance {
-        true => "The ends meet",
-        false => "No bridge fits between the ends",
+    let why = match (gap <= tolerance, most_curvature.is_finite()) {
+        (true, _) => "The ends meet",
+        (false, true) => "A bridge would bend more sharply",
+        (false, false) => "No bridge fits between the ends",
     };
     outcome
         .remarks

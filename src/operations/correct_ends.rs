@@ -437,9 +437,9 @@ fn at_once(
         ) {
             Ok(joint) => Ok(Correction {
                 residual: joint.residual,
-                polygon: Some(joint.polygon).filter(is_met),
                 passes: joint.steps,
-                reason: ROUNDING_LEAVES_MORE.to_owned(),
+                reason: why_missed(curve, &joint.polygon, joint.residual),
+                polygon: Some(joint.polygon).filter(is_met),
                 remark: None,
             }),
             Err(error @ CorrectionError::NotSolvable { residual, .. }) => Ok(Correction {
@@ -561,6 +561,25 @@ fn step_by_step(
         remark: None,
         polygon: Some(outcome.polygon).filter(|_| settled),
     })
+}
+
+/// Say why a joint correction does not reach the targets.
+fn why_missed(curve: &Curve, polygon: &FloatPolygon, left: f64) -> String {
+    let is_backward = |(end, target): &(End, EndTarget)| {
+        let along = polygon.end_jet(*end).first;
+        target.direction.is_some_and(|it| it.dot(along) < 0.0)
+    };
+    if let Some((end, _)) = curve.targets.list().into_iter().find(is_backward) {
+        let name = end.name();
+        return format!(
+            "The curve would run backward through its {name}: refine first, or ask for less there"
+        );
+    }
+    match cusp(curve, polygon) {
+        Some(cusp) => cusp,
+        None if left <= ROUNDING * polygon.size() => ROUNDING_LEAVES_MORE.to_owned(),
+        None => "The targets are missed: refine first, or ask for less".to_owned(),
+    }
 }
 
 /// Say why the loop was given up.

@@ -16,8 +16,8 @@ const MUCH: f64 = 10.0;
 /// whole, too: curvatures and directions say little about how far a curve may move.
 const FAR: f64 = 0.01;
 
-/// A curve that moves by more than this share of its size, and more than [`MUCH`] times as far as its ends, is another
-/// curve.
+/// A curve that moves by more than this share of its size, more than [`MUCH`] times as far as its ends, and farther than
+/// half of it would turn with them, is another curve.
 const ANOTHER: f64 = 0.1;
 
 /// A target direction that turns an end by more than this angle seems to point the wrong way.
@@ -75,8 +75,16 @@ fn points_back(curve: &Curve) -> impl Iterator<Item = String> {
 /// [`OperationError::Polygon`] if it cannot be measured.
 pub(super) fn is_another(curve: &Curve, after: &FloatPolygon) -> Result<bool, OperationError> {
     let size = BezierPolygon::from_float(&curve.polygon).size();
+    let targets = curve.targets.list().into_iter();
+    let turns = targets.map(|(end, target)| {
+        EndDifference::between(&curve.polygon, end, &target)
+            .angle
+            .abs()
+    });
+    // Half of a curve may turn with its end.
+    let turned = 0.5 * size * turns.fold(0.0, f64::max);
     let far = moved_far(curve, after)?;
-    Ok(far.is_some_and(|[moved, shift]| moved > (ANOTHER * size).max(MUCH * shift)))
+    Ok(far.is_some_and(|[moved, shift]| moved > (ANOTHER * size).max(MUCH * shift).max(turned)))
 }
 
 /// How far a correction moves the curve, and how far its ends, if the curve changes as a whole.

@@ -25,6 +25,7 @@ use crate::geometry::approximation::blend;
 use crate::geometry::approximation::merging::{
     MergeError, Merged, Track, check_joint, joint_of, merge, merge_blended,
 };
+use crate::geometry::distance::SideDeviation;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::bends::Bends;
 use crate::geometry::fairing::bridging::{Bridge, join};
@@ -464,6 +465,7 @@ impl Joining<'_> {
             extrema,
             waves,
         } = found.map_err(|error| merge_error(error, &progress))?;
+        let sought = tolerance;
         let tolerance = match deviation <= most {
             true => tolerance.max(deviation * (1.0 + MET)),
             false => tolerance,
@@ -499,6 +501,12 @@ impl Joining<'_> {
             outcome
                 .remarks
                 .push("The merged curve has no weights".to_owned());
+        }
+        if deviation > sought && deviation <= tolerance {
+            let [sought, found] = [significant(sought, 3), rounded_up(deviation)];
+            outcome.remarks.push(format!(
+                "No {name} within {sought} was found, this one is within {found}"
+            ));
         }
         if deviation > tolerance {
             let (possible, asked) = (rounded_up(deviation), significant(tolerance, 3));
@@ -657,14 +665,19 @@ impl Joining<'_> {
         let after = document.edited(edits.iter().cloned())?;
         let polygon = after.curve(other).map(|curve| &curve.polygon);
         let polygon = polygon.unwrap_or(&second.polygon);
-        let moved = second.polygon.deviation(polygon)?;
+        // Points that slide along the curve do not move it.
+        let moved = SideDeviation::both_ways([&second.polygon, polygon], self.progress);
+        let moved = moved.map_err(|_| OperationError::Cancelled)?;
         let planar = second.polygon.is_planar();
         let mut target = continuity.target(&first.polygon.end_jet(source_end), planar);
         if self.layout.turned {
             target = target.turned(planar);
         }
         let tolerance = MET * polygon.size();
-        let mut outcome = Outcome::unchanged(Deviation::AtMost(moved));
+        let mut outcome = Outcome::unchanged(match moved {
+            0.0 => Deviation::Exact,
+            moved => Deviation::Measured(moved),
+        });
         outcome.requirements = vec![(other, vec![place_of(polygon, end, target, tolerance)])];
         outcome.edits = edits;
         outcome.figures = self.method("chain").into();
@@ -675,7 +688,7 @@ impl Joining<'_> {
         ));
         outcome.remarks = dropped;
         let told = format!(
-            "Both stay curves; the second follows the first up to {} and moves by at most {}",
+            "Both stay curves; the second follows the first up to {} and moves by up to {}",
             continuity.name(),
             significant(moved, 3)
         );

@@ -250,13 +250,8 @@ fn replaced(
     if span == [0.0, polygon.segments() as f64] {
         return Ok(None);
     }
-    let (mut largest, sides) = (0.0_f64, [polygon, symmetric]);
-    for [one, other] in [sides, [symmetric, polygon]] {
-        let side = SideDeviation::of_curve(one, other, progress);
-        let side = side.map_err(|_| OperationError::Cancelled)?;
-        largest = largest.max(side.largest.distance());
-    }
-    Ok(Some(largest))
+    let distance = SideDeviation::both_ways([polygon, symmetric], progress);
+    distance.map(Some).map_err(|_| OperationError::Cancelled)
 }
 
 /// A half and its image in one.

@@ -141,6 +141,19 @@ impl SideDeviation {
         })
     }
 
+    /// Measure the largest distance between two curves, of all points of either one from the other.
+    ///
+    /// # Errors
+    /// As [`SideDeviation::of_curve`].
+    pub fn both_ways(
+        [one, other]: [&dyn ParametricCurve; 2],
+        progress: &Progress,
+    ) -> Result<f64, DistanceError> {
+        let there = Self::of_curve(one, other, progress)?.largest.distance();
+        let back = Self::of_curve(other, one, progress)?.largest.distance();
+        Ok(there.max(back))
+    }
+
     /// Measure how far points are from a curve; `None` without points.
     ///
     /// # Errors
