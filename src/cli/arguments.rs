@@ -133,7 +133,7 @@ enum Command {
         /// stays a reference.
         #[arg(long)]
         to_float: bool,
-        /// How far curves may move that are written as others; without it 1e-4 of their size
+        /// Largest deviation of lower degrees, float polygons and cubic Béziers; default: 1e-4 of the size
         #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
         tolerance: Option<f64>,
         /// Write so many points on the curve, not its vertices, as `points` does
@@ -288,7 +288,7 @@ pub(super) enum Task {
         to_float: bool,
         /// The highest degree that is written.
         most_degree: Option<usize>,
-        /// How far curves may move that are written as others.
+        /// The largest deviation of lower degrees, float polygons and cubic Béziers.
         tolerance: Option<f64>,
         /// What is written and how.
         export: ExportArguments,

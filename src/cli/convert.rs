@@ -23,7 +23,7 @@ pub(super) struct Conversion {
     pub(super) to_float: bool,
     /// The highest degree that is written.
     pub(super) most_degree: Option<usize>,
-    /// How far curves may move that are written as others.
+    /// The largest deviation of lower degrees, float polygons and cubic Béziers.
     pub(super) tolerance: Option<f64>,
     /// What is written and how.
     pub(super) export: ExportArguments,

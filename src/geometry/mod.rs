@@ -14,6 +14,7 @@ mod continuity;
 mod control_polygon;
 mod conversion;
 mod crossing;
+pub mod cubics;
 mod curvature_levels;
 mod cut;
 mod differentiable;

@@ -29,6 +29,7 @@ const ORDERED: [Layer; 2] = [
             BASE,
             "conversion",
             "features",
+            "cubics",
             "harmony",
             "distance",
             "fitting",

@@ -8,9 +8,8 @@ use kurbo::{
     fit_to_bezpath_opt,
 };
 
-use super::cubic_signs::{ChainFeatures, Cubic};
 use super::drawing::Nurbs;
-use super::fair_chain::fair_chain;
+use crate::geometry::cubics::{ChainFeatures, Cubic, fair_chain};
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::{BezierPolygon, FloatPolygon};
 use crate::io::loss::CubicDifference;

@@ -8,9 +8,12 @@
 
 use glam::DVec2;
 
-use super::cubic_signs::{ChainFeatures, Cubic, CubicSigns, changes};
+use super::chain_features::{ChainFeatures, CubicSigns, changes};
+use super::cubic::Cubic;
 use crate::geometry::features::{Feature, Features};
-use crate::geometry::{FloatPolygon, Jet};
+use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::jet::Jet;
+use crate::geometry::nearest::refined_parameter;
 
 /// The parts of the tolerance that are tried. A smaller one may need fewer cubics: which joints are good ones
 /// is luck. The first leaves room for deviations between the samples.
@@ -47,20 +50,23 @@ const RESIDUAL: f64 = 1e-9;
 /// The longest leg, in chords: beyond are loops.
 const LONGEST_LEG: f64 = 2.0;
 
-/// The samples of a cubic whose distances are measured, and the steps to the foot of each.
+/// The samples of a cubic whose distances are measured.
 const SAMPLES: usize = 16;
-const FOOT_STEPS: usize = 5;
 
 /// Features this near to a joint, by the parameter, are at it.
 const AT_JOINT: f64 = 1e-9;
 
-/// Find a chain along a planar curve, within a length, that keeps its features; the one with the fewest
-/// cubics of a few. `None` if none is found.
-pub(super) fn fair_chain(
+/// Find a chain of cubics along a planar curve that is within a length of it at 15 samples of each cubic, has its
+/// `features`, proved, and whose curvature does not jump: of a few such chains the one with the fewest cubics. `None` if
+/// none is found, or if the features of the curve are not all decided.
+pub fn fair_chain(
     polygon: &FloatPolygon,
     features: &Features,
     tolerance: f64,
 ) -> Option<Vec<Cubic>> {
+    if !features.undecided.is_empty() {
+        return None;
+    }
     let places = |kind| features.places(kind);
     let curve = Curve {
         polygon,
@@ -72,6 +78,7 @@ pub(super) fn fair_chain(
         inflections: features.count(Feature::Inflection),
         curvature_extrema: features.count(Feature::CurvatureExtremum),
         jumps: false,
+        undecided: false,
     };
     let chains = PARTS
         .iter()
@@ -162,26 +169,15 @@ impl Curve<'_> {
         self.polygon.jet(u.min(self.end.next_down()))
     }
 
-    /// Whether samples of a cubic are near the curve, each measured at the foot of its perpendicular.
+    /// Whether samples of a cubic are near the curve.
     fn is_near(&self, cubic: &Cubic, [from, to]: [f64; 2], tolerance: f64) -> bool {
         let step = (to - from) / SAMPLES as f64;
         let mut u = from;
         (1..SAMPLES).all(|sample| {
-            let at = point(cubic, sample as f64 / SAMPLES as f64);
+            let at = point(cubic, sample as f64 / SAMPLES as f64).extend(0.0);
             u = (u + step).min(to);
-            let mut distance = f64::INFINITY;
-            for _ in 0..FOOT_STEPS {
-                let jet = self.jet(u);
-                let (first, second) = (jet.first.truncate(), jet.second.truncate());
-                let off = at - jet.point.truncate();
-                distance = off.length();
-                let change = off.dot(first) / (first.length_squared() - off.dot(second));
-                if !change.is_finite() {
-                    break;
-                }
-                u = (u + change).clamp(from, to);
-            }
-            distance <= tolerance
+            u = refined_parameter(at, u, [from, to], |u| self.jet(u));
+            self.jet(u).point.distance(at) <= tolerance
         })
     }
 

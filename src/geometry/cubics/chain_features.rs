@@ -2,11 +2,9 @@
 
 use glam::DVec2;
 
-use crate::geometry::BezierPolygon;
+use super::cubic::Cubic;
+use crate::geometry::conversion::BezierPolygon;
 use crate::geometry::features::{SegmentProver, Sign, SignPiece};
-
-/// The vertices of a cubic Bézier.
-pub(super) type Cubic = [DVec2; 4];
 
 /// Curvatures that differ by less than this part of the largest one do not jump. Rounding is far below it,
 /// and nobody sees a jump of this size.
@@ -19,6 +17,8 @@ pub(super) struct CubicSigns {
     pub(super) curvature: Vec<bool>,
     /// The signs of its slope.
     pub(super) slope: Vec<bool>,
+    /// Whether a sign is unknown on some piece.
+    pub(super) undecided: bool,
 }
 
 impl CubicSigns {
@@ -30,7 +30,9 @@ impl CubicSigns {
             return Self::default();
         };
         let features = SegmentProver::new(true).segment(&polygon, 0);
+        let all = features.curvature.iter().chain(&features.curvature_slope);
         Self {
+            undecided: { all }.any(|piece| matches!(piece.sign, Sign::Unknown)),
             curvature: signs(&features.curvature),
             slope: signs(&features.curvature_slope),
         }
@@ -51,24 +53,27 @@ pub(super) fn changes(signs: &[bool]) -> usize {
     signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
-/// What a chain of cubics does.
+/// Hold the numbers of features of a chain of cubics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct ChainFeatures {
-    /// Its inflections, those at joints included.
-    pub(super) inflections: usize,
-    /// How often its curvature turns from rising to falling or back, inside a cubic or at a joint.
-    pub(super) curvature_extrema: usize,
-    /// Whether its curvature jumps at a joint.
-    pub(super) jumps: bool,
+pub struct ChainFeatures {
+    /// The inflections, those at joints included.
+    pub inflections: usize,
+    /// How often the curvature turns from rising to falling or back, inside a cubic or at a joint.
+    pub curvature_extrema: usize,
+    /// Whether the curvature jumps at a joint.
+    pub jumps: bool,
+    /// Whether there may be more, on pieces whose signs could not be told.
+    pub undecided: bool,
 }
 
 impl ChainFeatures {
-    /// Count along a chain, round the joint of a closed one too.
-    pub(super) fn of(chain: &[Cubic], is_closed: bool) -> Self {
-        let (mut curvature, mut slope) = (Vec::new(), Vec::new());
+    /// Count the features along a chain, those at the joint of a closed one included.
+    pub fn of(chain: &[Cubic], is_closed: bool) -> Self {
+        let (mut curvature, mut slope, mut undecided) = (Vec::new(), Vec::new(), false);
         for signs in chain.iter().map(CubicSigns::of) {
             curvature.extend(signs.curvature);
             slope.extend(signs.slope);
+            undecided |= signs.undecided;
         }
         if is_closed {
             curvature.extend(curvature.first().copied());
@@ -78,6 +83,7 @@ impl ChainFeatures {
             inflections: changes(&curvature),
             curvature_extrema: changes(&slope),
             jumps: jumps(chain, is_closed),
+            undecided,
         }
     }
 }
