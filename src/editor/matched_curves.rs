@@ -11,7 +11,7 @@ const STILL: f64 = 1e-9;
 /// A smallest radius that becomes so many times smaller is told.
 const SHARPER: f64 = 1.25;
 
-/// Features of curves with more segments are not compared: to prove them would stop the hand.
+/// Curves with more segments are not compared: to prove their features would stop the hand.
 const COMPARED: usize = 400;
 
 /// The curves that edits match with others.
@@ -31,14 +31,17 @@ pub(super) fn matched(curves: &[CurveId], documents: [&Document; 2]) -> (String,
         let moved = moved(before, after).filter(|_| !stays(before, after))?;
         let name = quoted(documents[1].name(*id)?);
         let changes = changes(before, after);
+        let advice = match changes.is_empty() {
+            true => "",
+            false => ": match up to less, or refine first",
+        };
         bends |= !changes.is_empty();
-        Some(match changes.is_empty() {
-            true => format!("The match moves {name} by up to {moved}"),
-            false => format!(
-                "The match moves {name} by up to {moved}; {}: match up to less, or refine first",
-                changes.join("; ")
-            ),
-        })
+        let mut told = vec![format!("The match moves {name} by up to {moved}")];
+        told.extend(changes);
+        if !are_compared(before, after) {
+            told.push("features not compared".to_owned());
+        }
+        Some(told.join("; ") + advice)
     });
     let told = told.collect::<Vec<_>>().join("\n");
     (told, bends)
@@ -72,6 +75,11 @@ fn polygons(id: CurveId, documents: [&Document; 2]) -> Option<[&FloatPolygon; 2]
     Some([&before?.polygon, &after?.polygon])
 }
 
+/// Whether two curves are short enough to be compared at once.
+fn are_compared(before: &FloatPolygon, after: &FloatPolygon) -> bool {
+    before.segments().max(after.segments()) <= COMPARED
+}
+
 /// Whether a curve moves by rounding alone.
 fn stays(before: &FloatPolygon, after: &FloatPolygon) -> bool {
     before
@@ -82,8 +90,7 @@ fn stays(before: &FloatPolygon, after: &FloatPolygon) -> bool {
 /// How far a curve moves, as text: the distance between both curves, as points that slide along them do not count. Of
 /// curves with more segments than are compared a bound, which takes no time.
 fn moved(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
-    let is_compared = before.segments().max(after.segments()) <= COMPARED;
-    let measured = is_compared.then(|| {
+    let measured = are_compared(before, after).then(|| {
         let progress = Progress::default();
         SideDeviation::both_ways([before, after], &progress).ok()
     });
@@ -93,8 +100,9 @@ fn moved(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
 
 /// What of a curve's character changes: its features, its smallest radius, whether it is planar.
 fn changes(before: &FloatPolygon, after: &FloatPolygon) -> Vec<String> {
-    let is_compared = before.segments().max(after.segments()) <= COMPARED;
-    let features = is_compared.then(|| feature_change(before, after)).flatten();
+    let features = are_compared(before, after)
+        .then(|| feature_change(before, after))
+        .flatten();
     let radii = [before, after].map(|polygon| {
         let whole = [0.0, polygon.segments() as f64];
         largest_curvature(polygon, whole).recip()
@@ -102,7 +110,7 @@ fn changes(before: &FloatPolygon, after: &FloatPolygon) -> Vec<String> {
     let [was, now] = radii;
     // A curve that is scaled as a whole bends as before.
     let shrinks = after.size() / before.size().max(f64::MIN_POSITIVE);
-    let is_sharper = was > SHARPER * now && was * shrinks.min(1.0) > SHARPER * now;
+    let is_sharper = was * shrinks.min(1.0) > SHARPER * now;
     let radii = is_sharper.then(|| {
         let [was, now] = radii.map(|radius| match radius.is_finite() {
             true => significant(radius, 3),

@@ -181,14 +181,11 @@ fn closed_near(
         || now > size * most_curvature;
     // Between ends on both sides of the curve nothing can lie that does not cross it.
     let is_across = between.is_some_and(|between| cross(&[&curve.polygon, &between]));
-    let found_crossing = new_crossing(&[&curve.polygon], &found.polygon);
-    let (crossed, crossing) = match is_across {
-        true => (found_crossing, None),
-        false => (None, found_crossing),
-    };
+    let crossing = new_crossing(&[&curve.polygon], &found.polygon);
+    // Where the blend itself bends sharply, so must the curve.
     let is_knuckle =
         blended <= SHARPER * was.max(1.0) && Bends::between(&found.polygon, joint).is_knuckle();
-    if crossing.is_some() || is_knuckle || is_sharper || found.waves > 0 {
+    if crossing.is_some() && !is_across || is_knuckle || is_sharper || found.waves > 0 {
         return Ok(None);
     }
     let deviation = Deviation::Measured(found.deviation);
@@ -214,7 +211,7 @@ fn closed_near(
     outcome
         .remarks
         .push(format!("{why}: a new curve within {moved} is closed"));
-    outcome.warnings.extend(crossed);
+    outcome.warnings.extend(crossing);
     if curve.polygon.is_rational() {
         outcome
             .remarks

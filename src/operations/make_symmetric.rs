@@ -233,7 +233,7 @@ fn completed(
     if let Some(replaced) = replaced {
         let [kept, replaced] = [deviation, replaced].map(|off| significant(off, 3));
         outcome.remarks.push(format!(
-            "The half that is kept moves by up to {kept}, the other one becomes its image: up to {replaced}"
+            "The half that is kept moves by up to {kept}. The other half, now its image, moves by up to {replaced}"
         ));
     }
     outcome.warnings.extend(whole.fault.or(whole.knuckle));

@@ -455,3 +455,47 @@ fn a_correction_that_makes_a_cusp_is_not_reached() {
         .any(|it| it.starts_with("Smallest radius: "));
     assert!(told, "{:?}", report.warnings);
 }
+
+#[test]
+fn ends_that_turn_may_take_the_curve_along() {
+    let line: Vec<(f64, f64)> = (0..6)
+        .map(|it| (10.0 * f64::from(it) - 20.0, 0.0))
+        .collect();
+    let line = FloatPolygon::planar(5, &line).expect("a line");
+    let turned = |degrees: f64| {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        Value::List(vec![cosine, sine])
+    };
+    let given = [
+        ("start-direction", turned(20.0)),
+        ("end-direction", turned(-20.0)),
+        ("start-curvature", Value::List(vec![-0.05])),
+        ("end-curvature", Value::List(vec![-0.05])),
+        ("end-slope", Value::List(vec![0.001])),
+    ];
+    let (outcome, curves) = Runner::of(line.clone()).done("correct-ends", &given);
+    assert!(
+        outcome
+            .residual
+            .is_some_and(|left| left <= MET * line.size())
+    );
+    for (end, sign) in [(End::Start, 1.0), (End::Finish, -1.0)] {
+        let jet = curves[0].polygon.end_jet(end);
+        let angle = jet.first.y.atan2(jet.first.x).to_degrees();
+        assert!((angle - sign * 20.0).abs() <= 1e-9, "{angle}");
+        assert!((jet.signed_curvature() + 0.05).abs() <= 1e-11);
+    }
+    // What is missed by more than rounding is not said to be rounding.
+    let given = [
+        ("start-direction", turned(20.0)),
+        ("end-direction", turned(30.0)),
+        ("start-curvature", Value::List(vec![-0.1])),
+        ("end-curvature", Value::List(vec![0.0])),
+        ("end-slope", Value::List(vec![0.05])),
+    ];
+    let outcome = Runner::of(line)
+        .run("correct-ends", &given)
+        .expect("it can run");
+    let told = outcome.remarks.join("; ");
+    assert!(outcome.reached || !told.contains("Rounding"), "{told}");
+}

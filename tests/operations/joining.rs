@@ -8,7 +8,8 @@ use batten::geometry::approximation::merging::merge_blended;
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::features::{Feature, Features};
 use batten::geometry::{
-    BezierPolygon, ClampedPolygon, Continuity, End, FloatPolygon, Progress, curve_crossing,
+    BezierPolygon, ClampedPolygon, Continuity, End, FloatPolygon, Progress, arc_length_between,
+    curve_crossing,
 };
 use batten::operations::{Deviation, Operands, Outcome, Report, Value};
 use glam::{DQuat, DVec3};
@@ -435,16 +436,6 @@ const ARCHES: [&[(f64, f64)]; 4] = [
 
 #[test]
 fn what_closes_an_arch_goes_no_long_way_round_and_does_not_cross() {
-    let figure = |report: &Report, name: &str| {
-        let mut figures = report.figures.iter();
-        let found = figures
-            .find(|it| it.name == name)
-            .map(|it| it.value.clone());
-        match found {
-            Some(Value::Real(number)) => number,
-            other => panic!("{name}: {other:?}"),
-        }
-    };
     for arch in ARCHES {
         let points = arch.iter().map(|(x, y)| DVec3::new(*x, *y, 0.0)).collect();
         let polygon = match arch.len() {
@@ -455,9 +446,10 @@ fn what_closes_an_arch_goes_no_long_way_round_and_does_not_cross() {
         let [start, end] = End::BOTH.map(|end| polygon.end_jet(end).point);
         let runner = Runner::of(polygon);
         let report = runner.report("close", &[]);
-        let (_, curves) = runner.done("close", &[]);
+        let (outcome, curves) = runner.done("close", &[]);
         let told = report.text();
-        let length = figure(&report, "bridge_length");
+        let [from, to] = outcome.joint.expect("a bridge or a blend");
+        let length = arc_length_between(&curves[0].polygon, from, to, 1e-3);
         assert!(length <= 6.0 * start.distance(end), "{told}");
         assert_eq!(curve_crossing(&curves[0].polygon), None, "{told}");
     }
@@ -1300,7 +1292,7 @@ fn a_small_gap_is_closed_without_a_kink_or_not_at_all() {
 #[test]
 fn a_gap_that_no_bridge_fits_is_closed_by_a_blend() {
     // Fits of a ring whose ends lie beside each other, of an eight with its gap at the crossing, and of an ellipse;
-    // with the most extrema, inflections and curvature by 1 / size that closing takes.
+    // with the most extrema, inflections and curvature that closing takes.
     let ring = [
         (-314.468, 40.475),
         (25.783, -131.871),
@@ -1345,7 +1337,21 @@ fn a_gap_that_no_bridge_fits_is_closed_by_a_blend() {
         (90.663, 44.225),
         (-152.715, 88.549),
     ];
+    // A half circle, whose bridge has a lump.
+    let half = [
+        (17.132, -48.591),
+        (44.301, -33.132),
+        (55.429, 0.062),
+        (44.415, 32.824),
+        (16.787, 52.465),
+        (-16.835, 52.439),
+        (-44.408, 32.794),
+        (-55.436, 0.076),
+        (-44.41, -33.383),
+        (-16.161, -51.813),
+    ];
     let cases = [
+        ("half", &half[..], 6, 0, 0.025),
         ("ring", &ring[..], 4, 2, 0.2),
         ("eight", &eight[..], 6, 2, 0.1),
         ("ellipse", &ellipse[..], 4, 0, 0.07),
@@ -1381,4 +1387,56 @@ fn a_gap_that_no_bridge_fits_is_closed_by_a_blend() {
             assert!(off < 0.2, "{name}: {off} at {}", at.point);
         }
     }
+}
+
+#[test]
+fn a_chain_tells_how_far_apart_the_curves_are_not_how_far_points_slide() {
+    let second = Curve::new(
+        "second",
+        FloatPolygon::planar(
+            5,
+            &(0..9)
+                .map(|it| (10.0 * f64::from(it) - 20.0, 0.0))
+                .collect::<Vec<_>>(),
+        )
+        .expect("a line"),
+    );
+    // It ends on the line, along it, with a curvature.
+    let start = second.polygon.end_jet(End::Start).point;
+    let arc = (0..12).map(|it| {
+        let angle = 0.1 * f64::from(it) - 1.1;
+        start + 30.0 * DVec3::new(angle.sin(), angle.cos() - 1.0, 0.0)
+    });
+    let arc = FloatPolygon::new(5, arc.collect(), None, false).expect("an arc");
+    let document = Document::from_curves([Curve::new("first", arc), second.clone()]);
+    let given = [
+        ("method", Value::Choice(3)),
+        ("continuity", Value::Choice(3)),
+    ];
+    let (outcome, after, report) = join(&document, &given);
+    assert_eq!(text(&report, "method"), "chain", "{}", report.text());
+    let chained = &after.curves().nth(1).expect("the second").1.polygon;
+    let samples = |polygon: &FloatPolygon| -> Vec<DVec3> {
+        let last = polygon.segments() as f64;
+        (0..=2000)
+            .map(|it| polygon.point(f64::from(it) / 2000.0 * last))
+            .collect()
+    };
+    let [own, other] = [samples(&second.polygon), samples(chained)];
+    let off = |from: &[DVec3], to: &[DVec3]| {
+        let nearest = |at: &DVec3| {
+            to.iter()
+                .map(|it| it.distance(*at))
+                .fold(f64::INFINITY, f64::min)
+        };
+        from.iter().map(nearest).fold(0.0, f64::max)
+    };
+    let apart = off(&own, &other).max(off(&other, &own));
+    let Deviation::Measured(told) = outcome.deviation else {
+        panic!("{:?}", outcome.deviation);
+    };
+    assert!(
+        (told - apart).abs() <= 0.02 * apart + 0.02,
+        "{told}, not {apart}"
+    );
 }
