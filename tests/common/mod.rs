@@ -4,7 +4,7 @@
 mod repeatable;
 
 use batten::geometry::FloatPolygon;
-use batten::geometry::features::{Feature, Features};
+use batten::geometry::features::{Feature, Features, SegmentFeatures};
 use glam::DVec3;
 use proptest::prelude::*;
 pub use repeatable::repeatable;
@@ -165,6 +165,12 @@ pub fn kinds(degrees: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = 
             seed,
         },
     )
+}
+
+/// Prove the features of the doubles given, however small.
+pub fn exact(polygon: &FloatPolygon) -> Features {
+    let segments = SegmentFeatures::of_curve(polygon, |_| true).expect("a proof");
+    Features::exact(polygon, &segments)
 }
 
 /// The numbers of inflections, curvature extrema, torsion zeros, torsion extrema, and whatever

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Random, assert_near, counts};
+use crate::common::{Random, assert_near, counts, exact};
 use crate::witness::ExactSegment;
 use batten::geometry::features::{ExtremumKind, Features, Root, Trend, Verdict};
 use batten::geometry::paper::regular_polygon;
@@ -21,7 +21,7 @@ fn planar(degree: usize, points: &[(f64, f64)]) -> FloatPolygon {
 }
 
 fn features(degree: usize, points: &[(f64, f64)]) -> Features {
-    Features::new(&planar(degree, points))
+    exact(&planar(degree, points))
 }
 
 /// The middle of bounds.
@@ -36,7 +36,7 @@ fn places(roots: &[Root]) -> Vec<[f64; 2]> {
 #[test]
 fn the_ripple_of_the_papers_arc_is_proved() {
     let arc = regular_polygon(9, 12, 10.0).expect("a valid arc");
-    let features = Features::new(&arc);
+    let features = exact(&arc);
     assert_eq!(counts(&features), [0, 1, 0, 0, 0]);
     let extremum = features.curvature_extrema[0];
     assert!(extremum.u[0] <= 0.5 && 0.5 <= extremum.u[1], "{extremum:?}");
@@ -69,7 +69,7 @@ fn the_ends_of_the_papers_arc_are_decided_as_its_rounding_has_it() {
             let bits = vertices[vertex].x.to_bits() as i64 + steps;
             vertices[vertex].x = f64::from_bits(bits as u64);
             let moved = FloatPolygon::new(9, vertices, None, false).expect("a valid arc");
-            let features = Features::new(&moved);
+            let features = exact(&moved);
             let exact = ExactSegment::all(&moved)[0]
                 .curvature_slope()
                 .roots_inside();
@@ -104,7 +104,7 @@ fn straight_lines_are_constant() {
         .collect();
     let weights = (1..13).map(f64::from).collect();
     let line = FloatPolygon::new(5, line, Some(weights), true).expect("a valid polygon");
-    let features = Features::new(&line);
+    let features = exact(&line);
     assert!(features.undecided.is_empty() && features.curvature_extrema.is_empty());
     // A periodic line turns back twice.
     assert_eq!(features.cusps.len(), 2);
@@ -206,7 +206,7 @@ fn a_cusp_at_a_simple_fraction_is_proved() {
     let bezier = [(0.0, 0.0), (-2.0, 3.0), (-1.0, -3.0), (3.0, 9.0)];
     let vertices = bezier.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
     let bezier = BezierPolygon::new(3, vertices, None).expect("valid");
-    let features = Features::new(&bezier.to_float().expect("one segment"));
+    let features = exact(&bezier.to_float().expect("one segment"));
     let [cusp] = features.cusps[..] else {
         panic!("{features:?}");
     };
@@ -218,7 +218,7 @@ fn a_cusp_at_a_simple_fraction_is_proved() {
 fn vertices_on_a_line_need_not_be_round_numbers() {
     let vertices = [0.1, 0.7, 1.3, 1.9, 3.3, 4.1].map(|x| DVec3::new(x, x, 0.0));
     let line = FloatPolygon::new(4, vertices.to_vec(), None, false).expect("valid");
-    let features = Features::new(&line);
+    let features = exact(&line);
     assert_eq!(counts(&features), [0; 5]);
     assert_eq!(features.undecided, []);
     assert_eq!(features.monotone, Verdict::Proved);
@@ -267,7 +267,7 @@ fn torsion_may_jump_where_a_space_curve_is_flat() {
         .map(|point| DVec3::from(point.map(f64::from)))
         .to_vec();
     let curve = FloatPolygon::new(4, vertices, None, false).expect("valid");
-    let features = Features::new(&curve);
+    let features = exact(&curve);
     assert_eq!(counts(&features)[3], 1);
     let doubts: Vec<_> = features.undecided.iter().map(|doubt| doubt.u).collect();
     assert!(doubts.contains(&[3.0, 3.0]), "{doubts:?}");
@@ -287,7 +287,7 @@ fn extrema_next_to_a_cusp_have_values_of_the_right_sign() {
     ];
     let vertices = points.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
     let curve = FloatPolygon::new(3, vertices, None, true).expect("valid");
-    let features = Features::new(&curve);
+    let features = exact(&curve);
     let last = features.curvature_extrema.last().expect("extrema");
     assert_eq!(last.kind, ExtremumKind::Maximum);
     assert!(last.value[0] > 1e19, "{last:?}");
@@ -301,7 +301,7 @@ fn sizes_far_apart_are_no_doubt_at_low_degrees() {
     let vertices = vertices.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
     let weights = Some(vec![26.0, 24.0, 26.0]);
     let curve = FloatPolygon::new(2, vertices, weights, false).expect("valid");
-    let features = Features::new(&curve);
+    let features = exact(&curve);
     assert_eq!(features.undecided, []);
     assert_ne!(features.monotone, Verdict::Undecided);
 }
@@ -402,7 +402,7 @@ fn exact_circles_have_constant_curvature() {
             })
         });
     for curve in curves {
-        let features = Features::new(&curve);
+        let features = exact(&curve);
         assert_eq!(counts(&features), [0; 5], "{features:?}");
         assert_eq!(features.undecided, []);
         assert_eq!(features.monotone, Verdict::Proved);
@@ -424,14 +424,14 @@ fn a_plane_curve_in_space_has_no_torsion() {
     });
     let mut vertices: Vec<_> = vertices.collect();
     let curve = FloatPolygon::new(5, vertices.clone(), None, true).expect("valid");
-    let features = Features::new(&curve);
+    let features = exact(&curve);
     assert_eq!(counts(&features)[2..4], [0, 0]);
     assert_eq!(features.undecided, []);
     // One vertex beside the plane is enough, by however little: then the torsion is proved where
     // the curve leaves the plane.
     vertices[7].z = vertices[7].z.next_up();
     let bent = FloatPolygon::new(5, vertices, None, true).expect("valid");
-    let features = Features::new(&bent);
+    let features = exact(&bent);
     assert_ne!(counts(&features)[3], 0);
     assert_eq!(features.undecided, []);
 }
@@ -447,7 +447,7 @@ fn an_ellipse_like_curve_has_four_vertices_wherever_its_joint_is() {
             let mut vertices = vertices.clone();
             vertices.rotate_left(by);
             let curve = FloatPolygon::new(degree, vertices, None, true).expect("valid");
-            let features = Features::new(&curve);
+            let features = exact(&curve);
             assert_eq!(features.undecided, [], "degree {degree}");
             let kinds: Vec<_> = features.curvature_extrema.iter().map(|e| e.kind).collect();
             let maxima = kinds

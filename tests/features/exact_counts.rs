@@ -195,7 +195,7 @@ fn check_curve(curve: &FloatPolygon, prover: &mut SegmentProver, tally: &mut Tal
         }
         tally.undecided_segments += usize::from(!decided);
     }
-    let features = Features::assemble(curve, &found);
+    let features = Features::exact(curve, &found);
     if !features.cusps.is_empty() {
         return;
     }

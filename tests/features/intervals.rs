@@ -1,12 +1,12 @@
 //! The intervals of proved features: they are apart where doubles can tell, narrow, and end at cusps.
 
-use crate::common::{assert_near, counts};
+use crate::common::{assert_near, counts, exact};
 use batten::geometry::features::{ExtremumKind, Feature, Features};
 use batten::geometry::{BezierPolygon, FloatPolygon};
 use glam::DVec3;
 
 fn features(degree: usize, points: &[(f64, f64)]) -> Features {
-    Features::new(&FloatPolygon::planar(degree, points).expect("a valid polygon"))
+    exact(&FloatPolygon::planar(degree, points).expect("a valid polygon"))
 }
 
 /// The middle of bounds.
@@ -81,7 +81,7 @@ fn seven_cusps_at_every_place_of_a_cut_are_all_found_and_no_extremum_is_claimed_
 fn curvature_that_only_touches_zero_is_decided() {
     // y = (2 t − 1)⁴ above x = 4 t: the curvature is 0 in the middle, and positive elsewhere.
     let curve = from_bezier(&[(0.0, 1.0), (1.0, -1.0), (2.0, 1.0), (3.0, -1.0), (4.0, 1.0)]);
-    let features = Features::new(&curve);
+    let features = exact(&curve);
     assert_eq!(features.undecided, []);
     assert_eq!(features.inflections, []);
     let holds = |u: [f64; 2]| u[0] <= 0.5 && 0.5 <= u[1];
@@ -105,7 +105,7 @@ fn cusps_are_proved_wherever_they_are() {
     ]);
     let line = from_bezier(&[(0.0, 0.0), (1.0, 0.0), (0.0, 0.0), (1.0, 0.0)]);
     for (curve, place) in [(curve, 0.5_f64.sqrt()), (line, 0.5)] {
-        let features = Features::new(&curve);
+        let features = exact(&curve);
         let [cusp] = features.cusps[..] else {
             panic!("{features:?}");
         };
@@ -195,7 +195,7 @@ fn intervals_are_apart_wherever_the_joint_of_a_periodic_curve_is() {
                 .map(|(x, y)| DVec3::new(*x, *y, 0.0))
                 .collect();
             let curve = FloatPolygon::new(3, vertices, None, true).expect("valid");
-            let features = Features::new(&curve);
+            let features = exact(&curve);
             assert_apart(&features, Some(curve.segments() as f64));
             counts(&features)
         });
@@ -237,7 +237,7 @@ fn no_feature_begins_where_an_undecided_piece_ends() {
     ];
     let points: Vec<DVec3> = points.into_iter().map(DVec3::from).collect();
     let polygon = FloatPolygon::new(20, points, Some(weights), false).expect("a valid polygon");
-    let features = Features::new(&polygon);
+    let features = exact(&polygon);
     let doubts = features.undecided.iter();
     let doubts = doubts.filter(|doubt| doubt.quantity == Feature::CurvatureExtremum);
     let doubts: Vec<[f64; 2]> = doubts.map(|doubt| doubt.u).collect();

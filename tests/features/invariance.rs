@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{Random, counts};
+use crate::common::{Random, counts, exact};
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::Features;
 use glam::{DMat3, DVec3};
@@ -19,7 +19,7 @@ fn size_and_place_do_not_matter() {
             let vertices = points.iter().map(|point| map(*point)).collect();
             let weights = (0..points.len()).map(|i| 1.0 + (i % 3) as f64).collect();
             let weights = Some(weights).filter(|_| weighted);
-            Features::new(&FloatPolygon::new(degree, vertices, weights, false).expect("valid"))
+            exact(&FloatPolygon::new(degree, vertices, weights, false).expect("valid"))
         };
         for weighted in [false, true] {
             let expected = counts(&build(&|point| point, weighted));

@@ -1,5 +1,6 @@
 //! The pieces on which the curvature rises, falls or is constant: they leave out cusps and extrema.
 
+use crate::common::exact;
 use batten::geometry::features::{ExtremumKind, Features, Trend};
 use batten::geometry::{BezierPolygon, FloatPolygon};
 use glam::DVec3;
@@ -39,7 +40,7 @@ fn no_trend_goes_through_a_cusp() {
     let cusped = BezierPolygon::new(3, cusped.to_vec(), None).expect("valid");
     let cusped = cusped.to_float().expect("one segment");
     for curve in [planar(&falling), cusped, planar(&turning)] {
-        let features = Features::new(&curve);
+        let features = exact(&curve);
         assert!(!features.cusps.is_empty());
         assert_trends_end_at_cusps(&features);
     }
@@ -53,7 +54,7 @@ fn no_trend_goes_through_a_piece_that_stands_still() {
         points.rotate_left(by);
         let vertices = points.iter().map(|(x, y)| DVec3::new(*x, *y, 0.0));
         let curve = FloatPolygon::new(2, vertices.collect(), None, true).expect("valid");
-        let features = Features::new(&curve);
+        let features = exact(&curve);
         // The segment of the three equal vertices, and the knots at both of its ends.
         let [cusp] = features.cusps[..] else {
             panic!("{features:?}");
@@ -79,7 +80,7 @@ fn an_extremum_just_after_the_joint_is_apart_from_the_one_at_the_joint() {
     ];
     let vertices = points.iter().map(|(x, y)| DVec3::new(*x, *y, 0.0));
     let curve = FloatPolygon::new(2, vertices.collect(), None, true).expect("valid");
-    let features = Features::new(&curve);
+    let features = exact(&curve);
     let [at_joint, after, ..] = features.curvature_extrema[..] else {
         panic!("{features:?}");
     };
@@ -116,7 +117,7 @@ fn no_trend_goes_through_extrema_beside_a_knot() {
     ];
     let vertices = points.iter().map(|(x, y)| DVec3::new(*x, *y, 0.0));
     let curve = FloatPolygon::new(2, vertices.collect(), Some(weights), false).expect("valid");
-    let features = Features::new(&curve);
+    let features = exact(&curve);
     let shared = features.curvature_extrema.iter();
     let shared = shared.filter(|extremum| extremum.u[0] <= 3.0 && 3.0 <= extremum.u[1]);
     let shared: Vec<_> = shared.collect();

@@ -27,7 +27,7 @@ pub fn check(curve: &FloatPolygon, tally: &mut Tally) -> Vec<String> {
     let mut prover = SegmentProver::new(curve.is_planar());
     let segments = (0..curve.segments()).map(|k| prover.segment(curve, k));
     let segments: Vec<_> = segments.collect();
-    let features = Features::assemble(curve, &segments);
+    let features = Features::exact(curve, &segments);
     tally.proving += start.elapsed();
     let start = Instant::now();
     let truth = Truth::of(curve);

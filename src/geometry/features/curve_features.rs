@@ -28,8 +28,14 @@ impl Features {
         Some(Self::assemble(polygon, &segments))
     }
 
+    /// Put the features of all segments together as [`Features::exact`] does, without those within the rounding of the
+    /// vertices.
+    pub fn assemble(polygon: &FloatPolygon, segments: &[SegmentFeatures]) -> Self {
+        Self::exact(polygon, segments).above_rounding(polygon)
+    }
+
     /// Put the features of all segments together, joining them at the knots, in time
-    /// proportional to their number. Segments that are missing end the curve.
+    /// proportional to their number: those of the doubles given, however small. Segments that are missing end the curve.
     ///
     /// At a knot κ is continuous from degree 3 on and κ′ from degree 4 on (torsion: 4 and 5). An
     /// extremum sits on the knot where the slope changes its sign there. At degree 2 (torsion:
@@ -37,7 +43,7 @@ impl Features {
     /// up, falling is one maximum; rising, down, rising is a maximum and a minimum, both at the
     /// knot, in one interval; rising, up, rising is none. Polylines, of degree 1, have curvature 0;
     /// their corners are not features. The ends of an open curve are not inside its domain.
-    pub fn assemble(polygon: &FloatPolygon, segments: &[SegmentFeatures]) -> Self {
+    pub fn exact(polygon: &FloatPolygon, segments: &[SegmentFeatures]) -> Self {
         let count = segments.len().min(polygon.segments());
         let Some(segments) = segments
             .get(..count)
@@ -124,7 +130,7 @@ impl Features {
         }
     }
 
-    fn verdict(&self) -> Verdict {
+    pub(super) fn verdict(&self) -> Verdict {
         let mut doubts = self
             .undecided
             .iter()

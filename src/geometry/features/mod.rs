@@ -9,8 +9,9 @@
 //! in doubt then with whole numbers of any length. Nothing is divided by the tangent.
 //!
 //! - A straight line has constant curvature 0, an exact circle a constant one: no extrema, and
-//!   both are monotone. A curve whose vertices lie in one plane exactly has no torsion; once
-//!   rounding has moved them off it the torsion of the doubles given is proved, however small.
+//!   both are monotone. A curve whose vertices lie in one plane exactly has no torsion.
+//! - What is proved of the doubles given but lies within their rounding is left out at the end: straight stretches,
+//!   circles and plane curves in space would have features of rounding ([`Features::exact`] has them).
 //! - A root at an end of a segment is one of its knot: it counts if the sign changes there.
 //! - A root of odd multiplicity is a change of sign, one of even multiplicity is none. Whole numbers
 //!   take multiplicities out first: what is left has simple roots only, which pieces that are small
@@ -43,6 +44,7 @@ mod power_velocity;
 mod ray_forecast;
 mod refinement;
 mod ring;
+mod rounding;
 mod scalar;
 mod segment_features;
 mod segment_shape;
