@@ -87,12 +87,25 @@ fn degree_one_is_the_polygon_itself() {
     assert_eq!(check(1, &points).vertices(), points);
 }
 
-/// The sum of the squares of the third differences and 0.3 times that of the second ones.
-fn roughness(vertices: &[DVec3]) -> f64 {
-    let second = |p: &[DVec3]| (p[2] - 2.0 * p[1] + p[0]).length_squared();
+/// The sum of the squares of the third differences and 0.3 times that of the second ones, which weigh more among the
+/// vertices of an end and the one beside them where the first leg of the points is short.
+fn roughness(vertices: &[DVec3], tail: usize, points: &[DVec3]) -> f64 {
+    let last = points.len() - 1;
+    let stiffness = [[0, 1, 2], [last, last - 1, last - 2]].map(|[a, b, c]| {
+        let [first, second] = [(a, b), (b, c)].map(|(a, b)| points[a].distance(points[b]));
+        (second / first).max(1.0).powi(2)
+    });
+    let second = |(first, p): (usize, &[DVec3])| {
+        let weight = match first {
+            _ if first + 2 <= tail => stiffness[0],
+            _ if first + 1 >= vertices.len() - tail => stiffness[1],
+            _ => 1.0,
+        };
+        weight * (p[2] - 2.0 * p[1] + p[0]).length_squared()
+    };
     let third = |p: &[DVec3]| (p[3] - 3.0 * p[2] + 3.0 * p[1] - p[0]).length_squared();
     let [second, third] = [
-        vertices.windows(3).map(second).sum::<f64>(),
+        vertices.windows(3).enumerate().map(second).sum::<f64>(),
         vertices.windows(4).map(third).sum(),
     ];
     0.3 * second + third
@@ -107,7 +120,7 @@ fn differences_are_the_least_that_meet_the_ends() {
             let points = walk(&mut random, count, false);
             let polygon = check(degree, &points);
             let (vertices, added) = (polygon.vertices(), degree / 2 + 1);
-            let least = roughness(vertices);
+            let least = roughness(vertices, added, &points);
             for _ in 0..50 {
                 let mut moved = vertices.to_vec();
                 let numbers = (0..added).chain(vertices.len() - added..vertices.len());
@@ -118,9 +131,9 @@ fn differences_are_the_least_that_meet_the_ends() {
                 // an end's point may depend on vertices that the other end added.
                 let met = with_ends(degree, moved, added, [points[0], points[count - 1]]);
                 assert!(
-                    roughness(&met) >= least * (1.0 - LEAST),
+                    roughness(&met, added, &points) >= least * (1.0 - LEAST),
                     "degree {degree}, {count} points: {} below {least}",
-                    roughness(&met)
+                    roughness(&met, added, &points)
                 );
             }
         }
@@ -196,6 +209,49 @@ fn ends_do_not_hook() {
     let [half, most] = [ratios[100], ratios[180]];
     assert!((0.5..2.0).contains(&half), "{half}");
     assert!(most < 5.5, "{most}");
+}
+
+/// A first click close to the second one sets the direction; the curve must not leave it backward.
+#[test]
+fn a_short_first_leg_does_not_turn_the_start_round() {
+    let mut random = Random(9);
+    for case in 0..300 {
+        let degree = 3 + case % 7;
+        let short = random.between(0.02, 0.5);
+        let (mut at, mut heading) = (DVec3::ZERO, 0.0_f64);
+        let points = (0..6).map(|step| {
+            let here = at;
+            let leg = if step == 0 { short } else { 1.0 } * random.between(8.0, 12.0);
+            at += leg * DVec3::new(heading.cos(), heading.sin(), 0.0);
+            heading += random.between(-0.6, 0.6);
+            here
+        });
+        let points: Vec<DVec3> = points.collect();
+        let first_leg = points[1] - points[0];
+        for end in End::BOTH {
+            let ordered = match end {
+                End::Start => points.clone(),
+                End::Finish => points.iter().rev().copied().collect(),
+            };
+            let polygon = check(degree, &ordered);
+            let jet = polygon.end_jet(end);
+            let out = if end == End::Start {
+                jet.first
+            } else {
+                -jet.first
+            };
+            let off = out.angle_between(first_leg).to_degrees();
+            assert!(off < 45.0, "degree {degree}, leg {short}: {off}° off");
+            let begin = if end == End::Start {
+                0.0
+            } else {
+                polygon.segments() as f64 - 1.0
+            };
+            let samples = (0..=32).map(|it| polygon.jet(begin + f64::from(it) / 32.0).curvature());
+            let sharpest = samples.fold(0.0, f64::max) * first_leg.length();
+            assert!(sharpest < 3.0, "degree {degree}, leg {short}: {sharpest}");
+        }
+    }
 }
 
 #[test]

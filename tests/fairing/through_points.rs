@@ -110,6 +110,34 @@ fn short_chords_beside_long_ones_do_not_ask_for_many_vertices() {
     assert!(off(&polygon, &points) < 1e-11 * 30.0);
 }
 
+/// A short chord at an end, too short for parameters by chord length.
+#[test]
+fn beside_a_short_chord_the_curve_does_not_hook() {
+    let mut random = Random(5);
+    for case in 0..200 {
+        let degree = 3 + case % 6;
+        let short = random.between(0.02, 0.1);
+        let (mut at, mut heading) = (DVec3::ZERO, 0.0_f64);
+        let points = (0..6).map(|step| {
+            let here = at;
+            let chord = if step == 0 { short } else { 1.0 } * random.between(8.0, 12.0);
+            at += chord * DVec3::new(heading.cos(), heading.sin(), 0.0);
+            heading += random.between(-0.6, 0.6);
+            here
+        });
+        let points: Vec<DVec3> = points.collect();
+        let polygon = through(degree, &points, false);
+        assert!(off(&polygon, &points) < 1e-11 * size(&points));
+        let first = points[1] - points[0];
+        let angle = polygon.jet(0.0).first.angle_between(first).to_degrees();
+        assert!(angle < 30.0, "degree {degree}, chord {short}: {angle}°");
+        let steps = 32 * polygon.segments();
+        let curvatures = (0..=steps).map(|it| polygon.jet(it as f64 / 32.0).curvature());
+        let sharpest = curvatures.fold(0.0, f64::max) * first.length();
+        assert!(sharpest < 3.0, "degree {degree}, chord {short}: {sharpest}");
+    }
+}
+
 #[test]
 fn points_of_a_circle_make_nearly_one() {
     for count in [6, 12, 24] {

@@ -12,7 +12,8 @@ use crate::geometry::float_polygon::FloatPolygon;
 /// A sum of squares of the vertices p, which were at p⁰.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Objective {
-    /// The disturbance Σ|Δᵏ(p − p⁰)|² + μ Σ|p − p⁰|² + λ ∫(|C − C⁰|² + ν |C″ − C⁰″|²) du.
+    /// The disturbance Σ|Δᵏ(p − p⁰)|² + μ Σ|p − p⁰|² + λ ∫(|C − C⁰|² + ν |C″ − C⁰″|²) du, and Σ wᵢ|Δ²(p − p⁰)|² with
+    /// the tensions w of the shape.
     Disturbance {
         /// The order k of the differences.
         order: usize,
@@ -66,6 +67,8 @@ pub(super) struct Shape<'a> {
     pub(super) before: &'a [DVec3],
     /// The vertices whose harmony counts: differences over others do not.
     pub(super) counts: &'a [bool],
+    /// The weights of second differences, by their first vertices; none count without.
+    pub(super) tensions: &'a [f64],
 }
 
 impl Objective {
@@ -126,6 +129,14 @@ impl Objective {
                 for first in windows(shape.polygon, stencil.len()) {
                     let touched = wrapped(shape.polygon, first, stencil.len());
                     let terms: Vec<(usize, f64)> = touched.zip(stencil.iter().copied()).collect();
+                    row(Row::Vector(moved(&terms), &terms));
+                }
+                let stencil = difference_stencil(2);
+                for (first, tension) in shape.tensions.iter().enumerate() {
+                    let factor = tension.sqrt();
+                    let touched = wrapped(shape.polygon, first, stencil.len());
+                    let factors = stencil.iter().map(|it| factor * it);
+                    let terms: Vec<(usize, f64)> = touched.zip(factors).collect();
                     row(Row::Vector(moved(&terms), &terms));
                 }
                 let [weight, bending] = curve;

@@ -55,6 +55,8 @@ pub(super) struct Problem<'a> {
     held: Vec<(JetWeights, Vec<Condition>)>,
     /// The vertices whose harmony counts.
     counts: Vec<bool>,
+    /// The weights of second differences in a disturbance.
+    tensions: Vec<f64>,
     /// Ends the steps early.
     progress: Progress,
 }
@@ -106,6 +108,7 @@ impl<'a> Problem<'a> {
             before: vertices.map(|vertex| (*vertex - origin) / scale).collect(),
             held: Vec::new(),
             counts: vec![true; polygon.vertices().len()],
+            tensions: Vec::new(),
             progress: Progress::default(),
         }
     }
@@ -113,6 +116,12 @@ impl<'a> Problem<'a> {
     /// Take no further steps once the computation is cancelled.
     pub(super) fn end_with(&mut self, progress: &Progress) {
         self.progress = progress.clone();
+    }
+
+    /// Let second differences of the moves count in a disturbance too, by these weights, one for each three vertices in a
+    /// row.
+    pub(super) fn stiffen(&mut self, tensions: Vec<f64>) {
+        self.tensions = tensions;
     }
 
     /// Hold the curve at a parameter to a target; with a `speed`, |C′| too.
@@ -347,6 +356,7 @@ impl<'a> Problem<'a> {
             polygon: self.polygon,
             before: &self.before,
             counts: &self.counts,
+            tensions: &self.tensions,
         }
     }
 

@@ -2,12 +2,14 @@
 //!
 //! A float polygon runs beyond its curve. Between the points given first and last, q₀ and q_m, the
 //! others are vertices as they are; in place of q₀ and of q_m come ⌊n/2⌋ + 1 vertices each. Those
-//! make Σ|Δ³Pᵢ|² + 0.3 Σ|Δ²Pᵢ|² over the whole polygon as small as possible while
+//! make Σ|Δ³Pᵢ|² + 0.3 Σ wᵢ|Δ²Pᵢ|² over the whole polygon as small as possible while
 //!
 //!   Σ_{i<n} bᵢ Pᵢ = q₀,   Σ_{i<n} bᵢ P_{N−n+i} = q_m,   bᵢ the basis of degree n at the end knot,
 //!
 //! without the third differences where only two points are given: then the polygon is straight and
-//! evenly divided. Third differences alone would let the ends hook, second ones would flatten them.
+//! evenly divided. Third differences alone would let the ends hook, second ones would flatten them. Within the vertices
+//! of an end and the point beside them, w = r², with r ≥ 1 the ratio of the second leg between the points to the first:
+//! beside a short leg the end would leave it backward. Elsewhere w = 1.
 
 use std::ops::Range;
 
@@ -21,6 +23,9 @@ use crate::geometry::float_polygon::FloatPolygon;
 
 /// The orders of the differences, if there are points enough, with the weights of their squares.
 const ORDERS: [(usize, f64); 2] = [(2, 0.3), (3, 1.0)];
+
+/// The ratio of legs beyond which second differences weigh no more: equations stay regular.
+const MOST_RATIO: f64 = 1e3;
 
 /// Repetitions that remove the rounding errors of the conditions.
 const REFINEMENTS: usize = 3;
@@ -44,7 +49,9 @@ impl FloatPolygon {
             _ => return Self::new(degree, points.to_vec(), None, false),
         };
         let tail = tail(degree);
-        let layout = Layout::new(degree, [tail, tail], between.len());
+        let mut layout = Layout::new(degree, [tail, tail], between.len());
+        let mut backward = points.iter().rev().copied();
+        layout.stiffness = [stiffness(points.iter().copied()), stiffness(&mut backward)];
         let mut vertices = vec![first; tail];
         vertices.extend_from_slice(between);
         vertices.resize(layout.count(), last);
@@ -85,6 +92,11 @@ impl FloatPolygon {
             weights
         });
         let mut layout = Layout::new(self.degree(), added, vertices.len() - tail);
+        let beside = match end {
+            End::Start => vertices.get(beyond + 1),
+            End::Finish => start.checked_sub(1).and_then(|it| vertices.get(it)),
+        };
+        layout.stiffness = [stiffness([to, from].into_iter().chain(beside.copied())); 2];
         layout.weights.clone_from(&weights);
         layout.place(&mut vertices, [to, to]);
         Self::new(self.degree(), vertices, weights, false)
@@ -94,6 +106,16 @@ impl FloatPolygon {
 /// The vertices that come in place of an end point.
 fn tail(degree: usize) -> usize {
     degree / 2 + 1
+}
+
+/// The weight of second differences beside the end of some points.
+fn stiffness(points: impl Iterator<Item = DVec3>) -> f64 {
+    let points: Vec<DVec3> = points.take(3).collect();
+    let legs = points.windows(2).map(|pair| pair[0].distance(pair[1]));
+    match legs.collect::<Vec<f64>>()[..] {
+        [first, second] if second > first => (second / first).min(MOST_RATIO).powi(2),
+        _ => 1.0,
+    }
 }
 
 /// The added vertices and their conditions.
@@ -107,6 +129,8 @@ struct Layout {
     basis: Vec<f64>,
     /// The weights of all vertices of a rational curve.
     weights: Option<Vec<f64>>,
+    /// The weights of second differences among the added vertices of each end and the one beside them.
+    stiffness: [f64; 2],
 }
 
 impl Layout {
@@ -119,6 +143,7 @@ impl Layout {
             between,
             basis,
             weights: None,
+            stiffness: [1.0; 2],
         }
     }
 
@@ -218,9 +243,12 @@ impl Layout {
         let orders = orders.filter(|(order, _)| *order <= self.between + 2);
         let rows = orders.flat_map(|(order, weight)| {
             let stencil = difference_stencil(order);
-            let factor = weight.sqrt();
             let places = 0..self.count().saturating_sub(order);
             places.map(move |first| {
+                let factor = match order {
+                    2 => (weight * self.stiffness_at(first)).sqrt(),
+                    _ => weight.sqrt(),
+                };
                 let entries = stencil.iter().enumerate();
                 let entries = entries.map(|(index, share)| (first + index, factor * *share));
                 entries.collect()
@@ -231,6 +259,18 @@ impl Layout {
             vertices.any(|(vertex, _)| self.column(*vertex).is_some())
         };
         rows.filter(touches).collect()
+    }
+
+    /// The weight of a second difference by its first vertex.
+    fn stiffness_at(&self, first: usize) -> f64 {
+        let ([before, after], [start, finish]) = (self.added, self.stiffness);
+        if before > 0 && first + 2 <= before {
+            start
+        } else if after > 0 && first + 1 >= before + self.between {
+            finish
+        } else {
+            1.0
+        }
     }
 
     /// What a combination of vertices has of the added ones, by their columns.

@@ -3,6 +3,9 @@
 //! The points q₀ … q_m get parameters in proportion to the distances between them (chord length), over so many
 //! segments that none holds two points. Of all float polygons whose curve passes the points there, the one with the
 //! least Σ|Δ³ Pᵢ|² is taken.
+//!
+//! Where other parameters make a span slower than its neighbours, by a ratio r of the speeds, 0.3 (r² − 1) |Δ² Pᵢ|² is
+//! added there: beside a short chord the curve would hook.
 
 use glam::DVec3;
 
@@ -25,6 +28,13 @@ const MOST_VERTICES: usize = 10;
 
 /// The exponents of the distances that are tried: chord length, centripetal parameters, more even ones.
 const EXPONENTS: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 0.0];
+
+/// The weight of second differences where speeds differ, and the ratio of speeds beyond which they weigh no more.
+const TENSION: f64 = 0.3;
+const MOST_RATIO: f64 = 1e3;
+
+/// Speeds that differ by no more than this share are the same.
+const EVEN: f64 = 1e-9;
 
 /// What rounding may add to a number of segments.
 const ROUNDING: f64 = 1e-9;
@@ -69,6 +79,7 @@ impl FloatPolygon {
         for (point, u) in points.iter().zip(&places) {
             problem.hold_point(JetWeights::at(&spread, *u).of_value(), *point);
         }
+        problem.stiffen(tensions(points, &places, &spread));
         let least = Objective::Disturbance {
             order: if points.len() > 2 { ORDER } else { ORDER - 1 },
             fidelity: LEAST_WEIGHT,
@@ -82,6 +93,45 @@ impl FloatPolygon {
         let found = found.ok_or(overflow)?;
         problem.polygon(&found.vertices)
     }
+}
+
+/// The weights of second differences, by their first vertices; none where all speeds are the same.
+fn tensions(points: &[DVec3], places: &[f64], polygon: &FloatPolygon) -> Vec<f64> {
+    let (periodic, last) = (polygon.is_periodic(), polygon.segments() as f64);
+    let ends = places.iter().copied().chain(periodic.then_some(last));
+    let ends: Vec<f64> = ends.collect();
+    let speeds = ends.windows(2).enumerate().map(|(span, ends)| {
+        let chord = points[span].distance(points[(span + 1) % points.len()]);
+        chord / (ends[1] - ends[0])
+    });
+    let speeds: Vec<f64> = speeds.collect();
+    let count = speeds.len();
+    let beside = |span: usize| match periodic {
+        true => [(span + count - 1) % count, (span + 1) % count],
+        false => [span.saturating_sub(1), (span + 1).min(count - 1)],
+    };
+    let tension = |span: usize| {
+        let [before, behind] = beside(span).map(|it| speeds[it] / speeds[span]);
+        let ratio = before.max(behind).min(MOST_RATIO);
+        match ratio > 1.0 + EVEN {
+            true => TENSION * (ratio * ratio - 1.0),
+            false => 0.0,
+        }
+    };
+    let tensions: Vec<f64> = (0..count).map(tension).collect();
+    if tensions.iter().all(|tension| *tension == 0.0) {
+        return Vec::new();
+    }
+    let vertices = polygon.vertices().len();
+    let windows = if periodic { vertices } else { vertices - 2 };
+    let of_window = |first: usize| {
+        // The influence of the middle vertex is largest there.
+        let u = (first + 1) as f64 - 0.5 * (polygon.degree() as f64 - 1.0);
+        let u = if periodic { u.rem_euclid(last) } else { u };
+        let span = ends.partition_point(|end| *end <= u).clamp(1, count) - 1;
+        tensions[span]
+    };
+    (0..windows).map(of_window).collect()
 }
 
 /// The parameters of the points, and the number of segments.
