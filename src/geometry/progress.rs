@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
 
 use super::float_polygon::FloatPolygon;
 
@@ -13,8 +15,8 @@ use super::float_polygon::FloatPolygon;
 #[derive(Clone, Debug)]
 pub struct Progress {
     shared: Arc<State>,
-    /// When the time is up.
-    deadline: Option<Instant>,
+    /// When the time is up, by the time that the thread has computed: other programs that run do not change a result.
+    deadline: Option<Duration>,
     /// The part of the whole work whose shares are told.
     part: Part,
     /// Which of the curves of the result is searched for; `None` shows no curve.
@@ -71,9 +73,10 @@ struct Best {
 }
 
 impl Progress {
-    /// Give a part of the computation so much time from now on, and no more than the whole has.
+    /// Give a part of the computation so much time from now on, and no more than the whole has. It counts while this thread
+    /// computes, and must be watched there.
     pub fn limited(&self, limit: Duration) -> Self {
-        let own = Instant::now().checked_add(limit);
+        let own = computed().checked_add(limit);
         Self {
             deadline: own.into_iter().chain(self.deadline).min(),
             ..self.clone()
@@ -90,10 +93,8 @@ impl Progress {
 
     /// Give the computation this share of the time that is left, if its time is limited.
     pub fn hurried(&self, share: f64) -> Self {
-        let now = Instant::now();
-        let left = self
-            .deadline
-            .map(|deadline| deadline.saturating_duration_since(now));
+        let now = computed();
+        let left = self.deadline.map(|deadline| deadline.saturating_sub(now));
         Self {
             deadline: left.map(|left| now + left.mul_f64(share.clamp(0.0, 1.0))),
             ..self.clone()
@@ -151,7 +152,7 @@ impl Progress {
     /// Whether the time is up. What was found so far may still be wanted.
     pub fn is_late(&self) -> bool {
         self.deadline
-            .is_some_and(|deadline| self.is_stopped() || Instant::now() >= deadline)
+            .is_some_and(|deadline| self.is_stopped() || computed() >= deadline)
     }
 
     /// Show the best curve found so far to whoever watches.
@@ -191,6 +192,12 @@ impl Progress {
     pub fn done(&self) -> f64 {
         f64::from_bits(self.shared.done.load(Ordering::Relaxed))
     }
+}
+
+/// The time that this thread has computed; none where the system does not tell, so that only [`Progress::stop`] ends a
+/// search.
+fn computed() -> Duration {
+    ThreadTime::try_now().map_or(Duration::ZERO, |time| time.as_duration())
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ const TIME: f64 = 10.0;
 pub(super) const TIME_LIMIT: Parameter = Parameter {
     name: "time-limit",
     label: "Time limit",
-    help: "The seconds, at most 86400 (a day), after which the search ends with the best so far",
+    help: "The seconds of computing, at most 86400, after which the search ends with the best so far",
     kind: Kind::optional_number(SECONDS, |_| "10"),
 };
 
