@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::bridge::{BRIDGE, annotations, fault, figures, found, knuckle, remarks};
 use super::crossing::new_crossing;
+use super::cutting::without_target;
 use super::editable::open;
 use super::error::OperationError;
 use super::fit_piece::features;
@@ -11,7 +12,6 @@ use super::inputs::Inputs;
 use super::join::{ALSO_WITHIN, WITHIN};
 use super::lists::given_count;
 use super::make_symmetric::smaller_side;
-use super::matches::without_match;
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
@@ -212,7 +212,7 @@ fn closed_near(
         .remarks
         .push(format!("{why}: a new curve within {moved} is closed"));
     outcome.warnings.extend(crossing);
-    if curve.polygon.is_rational() {
+    if curve.polygon.is_rational() && !found.polygon.is_rational() {
         outcome
             .remarks
             .push("The closed curve has no weights".to_owned());
@@ -233,13 +233,7 @@ fn closed(
     let (id, curve): (CurveId, &Curve) = input.curve()?;
     let mut edits: Vec<Edit> = Vec::new();
     for end in End::BOTH {
-        edits.extend(without_match(input.document(), id, end));
-        let target = curve.targets.get(end).map(|_| Edit::SetTarget {
-            curve: id,
-            end,
-            target: None,
-        });
-        edits.extend(target);
+        edits.extend(without_target(input.document(), id, curve, end));
     }
     let mut outcome = Outcome::renumbered(input, polygon.clone(), spans, deviation)?;
     edits.append(&mut outcome.edits);

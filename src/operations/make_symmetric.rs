@@ -16,6 +16,7 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
 use crate::document::{CurveId, ParameterSpan};
+use crate::geometry::approximation::close_within;
 use crate::geometry::approximation::merging::{MergeError, check_joint, joint_of, merge};
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::fairing::bridging::{Bridge, join};
@@ -50,6 +51,9 @@ const KEEP: Parameter = Parameter {
 
 /// The share of the tolerance that cutting the curve in half may take.
 const OF_CUT: f64 = 0.1;
+
+/// The shares that closing the whole may take, before the mean with its image.
+const OF_CLOSING: [f64; 2] = [0.5, 0.1];
 
 /// The shares that merging the half with its image may take, before the mean of both: each search finds another curve.
 const OF_MERGE: [f64; 3] = [0.5, 0.2, 1.0];
@@ -198,6 +202,11 @@ fn completed(
         Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
         Err(_) => bridged([first, second], mirror, progress)?,
     };
+    // Where the outer ends meet as well, the curve is one half of a closed outline.
+    let whole = match is_outline([first, second], tolerance) {
+        true => closed(whole, [first, second], mirror, tolerance, progress)?,
+        false => whole,
+    };
     let symmetric = whole.polygon;
     let deviation = whole.off + cut;
     let replaced = replaced(polygon, span, &symmetric, progress)?;
@@ -213,11 +222,19 @@ fn completed(
             Half::Second => [whole.joint[1], symmetric.segments() as f64],
         },
     }];
-    let middle = symmetric.point(0.5 * symmetric.segments() as f64);
-    let count = symmetric.vertices().len();
+    let middle = symmetric.point(0.5 * (whole.joint[0] + whole.joint[1]));
+    let (count, closes) = (symmetric.vertices().len(), symmetric.is_periodic());
     let mut outcome = Outcome::renumbered(input, symmetric, spans, deviation_is)?;
-    let cut_off = without_target(input.document(), id, curve, half.inner());
-    outcome.edits.extend(cut_off);
+    for end in End::BOTH {
+        if closes || end == half.inner() {
+            let cut_off = without_target(input.document(), id, curve, end);
+            outcome.edits.extend(cut_off);
+        }
+    }
+    if closes {
+        let told = "Both ends meet their images: the curve is closed".to_owned();
+        outcome.remarks.push(told);
+    }
     outcome.annotations.push(Annotation::Point(middle));
     let limit = Requirement::Limit {
         found: deviation,
@@ -305,6 +322,55 @@ fn merged(
         bounded: merged.bounded,
         fault: None,
         knuckle: None,
+    })
+}
+
+/// Whether a planar half and its image meet, without a corner, at their outer ends.
+fn is_outline([first, second]: [&FloatPolygon; 2], tolerance: f64) -> bool {
+    let joint = joint_of(second, first);
+    let is_smooth = check_joint(joint, first.size(), tolerance).is_ok();
+    joint.meets(tolerance) && is_smooth && first.is_planar()
+}
+
+/// Make the whole periodic, as both of its ends meet; if no near curve is found, it stays open and says so.
+fn closed(
+    whole: Whole,
+    [first, _]: [&FloatPolygon; 2],
+    mirror: &Mirror,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Whole, OperationError> {
+    for share in OF_CLOSING {
+        let found = close_within(
+            &whole.polygon,
+            share * tolerance,
+            &progress.limited(MERGING),
+        );
+        let Ok(found) = found else {
+            continue;
+        };
+        let polygon = found.polygon.symmetrised(mirror)?;
+        let off = SideDeviation::of_curve(first, &polygon, progress);
+        let off = off
+            .map_err(|_| OperationError::Cancelled)?
+            .largest
+            .distance();
+        if off <= tolerance {
+            return Ok(Whole {
+                joint: whole.joint.map(|at| found.tracks[0].at(at)),
+                polygon,
+                off,
+                bounded: false,
+                ..whole
+            });
+        }
+    }
+    if progress.is_cancelled() {
+        return Err(OperationError::Cancelled);
+    }
+    Ok(Whole {
+        knuckle: Some("The outer ends meet as well, but no closed curve is near enough: Close curve may take one".to_owned()),
+        ..whole
     })
 }
 

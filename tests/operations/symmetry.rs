@@ -203,3 +203,39 @@ fn an_s_is_not_flattened_without_a_word() {
     let warning = outcome.warnings.first().expect("a warning");
     assert!(warning.contains("its halves differ much"), "{warning}");
 }
+
+/// Halves of outlines whose ends lie on the axis and leave it at a right angle.
+#[test]
+fn half_an_outline_becomes_a_closed_curve() {
+    for (degree, segments, egg) in [(3, 12, 0.0), (4, 11, 0.2), (5, 16, 0.3)] {
+        let step = std::f64::consts::PI / f64::from(segments);
+        // The first vertex with which the curve begins at the axis.
+        let begin = 0.5 * (f64::from(degree) - 1.0);
+        let vertex = |index: i32| {
+            let angle = -std::f64::consts::FRAC_PI_2 + step * (f64::from(index) - begin);
+            let across = 40.0 * angle.cos() * (1.0 + egg * angle.sin());
+            (across, 100.0 * angle.sin())
+        };
+        let vertices: Vec<(f64, f64)> = (0..segments + degree).map(vertex).collect();
+        let polygon = FloatPolygon::planar(degree as usize, &vertices).expect("a polygon");
+        let tolerance = 1e-4 * polygon.size();
+        let (outcome, curves) = Runner::of(polygon.clone()).done("make-symmetric", &[]);
+        assert!(outcome.reached, "{:?}", outcome.warnings);
+        let whole = &curves[0].polygon;
+        assert!(whole.is_periodic());
+        assert_eq!(whole.symmetrised(&MIRROR).as_ref(), Ok(whole));
+        let off = (0..=600).map(|it| {
+            let point = polygon.point(f64::from(it * segments) / 600.0);
+            whole.nearest(point).distance
+        });
+        let off = off.fold(0.0, f64::max);
+        let told = match outcome.deviation {
+            Deviation::Measured(told) => told,
+            other => panic!("{other:?}"),
+        };
+        assert!(
+            off <= told * (1.0 + 1e-6) + 1e-9 && told <= tolerance,
+            "{off} {told}"
+        );
+    }
+}

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 
 use super::blending::blend;
 use super::merging::{
-    KEPT, MOST, MergeError, Merged, SMALLEST, Track, check_joint, counts_of, joint_of, sampled,
-    samples_of,
+    KEPT, MOST, MergeError, Merged, SMALLEST, Track, check_joint, counts_of, goes_on, joint_of,
+    sampled, samples_of,
 };
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::end::End;
@@ -27,7 +27,8 @@ pub const SMALL_GAP: f64 = 0.01;
 /// Ends that go over into each other so many times as sharply as the curve bends elsewhere bulge.
 const BULGE: f64 = 1.25;
 
-/// Make a planar open curve periodic and without weights, within a tolerance. It has the fewest curvature extrema that
+/// Make a planar open curve periodic and without weights, within a tolerance; where its last n vertices are its first, it
+/// is exact and keeps them. It has the fewest curvature extrema that
 /// the curve and a blend between its ends, if they are apart, allow, proved; the deviation is that of the curve from it.
 /// Across a gap of up to 1 % of the size ends go over into each other, and move by no more than the gap; where that fails
 /// or bulges, or the gap is wider, the blend connects them.
@@ -42,10 +43,14 @@ pub fn close_within(
     progress: &Progress,
 ) -> Result<Merged, MergeError> {
     polygon.check_open("closed")?;
+    let counts = counts_of([polygon], progress)?;
+    if let Some(closed) = continued(polygon) {
+        let [extrema, _] = counts_of([&closed], progress)?;
+        return measured(polygon, closed, [counts[0], extrema], progress);
+    }
     if !polygon.is_planar() {
         return Err(MergeError::NotFound);
     }
-    let counts = counts_of([polygon], progress)?;
     let (joint, size) = (joint_of(polygon, polygon), polygon.size());
     let meets = joint.meets(tolerance);
     let bent = check_joint(joint, size, tolerance);
@@ -68,6 +73,18 @@ pub fn close_within(
             }
         }
     }
+}
+
+/// The exact curve where the last n vertices are the first ones, as those of a periodic curve cut at a knot are.
+fn continued(polygon: &FloatPolygon) -> Option<FloatPolygon> {
+    let kept = polygon.vertices().len().checked_sub(polygon.degree())?;
+    if !goes_on([polygon, polygon]) {
+        return None;
+    }
+    let vertices = polygon.vertices().iter().take(kept).copied().collect();
+    let weights = polygon.weights();
+    let weights = weights.map(|weights| weights.iter().take(kept).copied().collect());
+    FloatPolygon::new(polygon.degree(), vertices, weights, true).ok()
 }
 
 /// Whether a curve that is closed bends more sharply than the open one did.

@@ -450,17 +450,10 @@ fn added_by_joint([first, second]: [&FloatPolygon; 2], planar: bool, tolerance: 
 /// The exact curve where the second one goes on with the knots and the last n vertices of the first, as the parts of a
 /// curve do that was split at a knot.
 fn continued([first, second]: [&FloatPolygon; 2]) -> Option<FloatPolygon> {
-    let degree = first.degree();
-    let begin = first.vertices().len().checked_sub(degree)?;
-    let size = first.size().max(second.size());
-    let is_shared = |index: usize| {
-        let [one, other] = [begin + index, index];
-        first.vertex(one).distance(second.vertex(other)) <= SHARED * size
-            && (first.weight(one) - second.weight(other)).abs() <= SHARED * first.weight(one)
-    };
-    if second.degree() != degree || !(0..degree).all(is_shared) {
+    if !goes_on([first, second]) {
         return None;
     }
+    let degree = first.degree();
     let vertices = first.vertices().iter();
     let vertices = vertices.chain(second.vertices().iter().skip(degree));
     let weights = [first, second].iter().any(|it| it.is_rational()).then(|| {
@@ -469,6 +462,21 @@ fn continued([first, second]: [&FloatPolygon; 2]) -> Option<FloatPolygon> {
         own.chain(others).collect()
     });
     FloatPolygon::new(degree, vertices.copied().collect(), weights, false).ok()
+}
+
+/// Whether a curve goes on with the knots and the last n vertices of another one, or of itself.
+pub(super) fn goes_on([first, second]: [&FloatPolygon; 2]) -> bool {
+    let degree = first.degree();
+    let Some(begin) = first.vertices().len().checked_sub(degree) else {
+        return false;
+    };
+    let size = first.size().max(second.size());
+    let is_shared = |index: usize| {
+        let [one, other] = [begin + index, index];
+        first.vertex(one).distance(second.vertex(other)) <= SHARED * size
+            && (first.weight(one) - second.weight(other)).abs() <= SHARED * first.weight(one)
+    };
+    second.degree() == degree && begin > 0 && (0..degree).all(is_shared)
 }
 
 /// Whether the curvature of planar curves changes its sign where they meet.
