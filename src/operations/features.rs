@@ -16,7 +16,7 @@ use crate::geometry::polygon_figures::{FOLD, sharpest_turn};
 use crate::geometry::{BezierPolygon, FloatPolygon, Progress, significant};
 
 /// A bend that is so many times as sharp as all bends before is told.
-const SHARPER: f64 = 3.0;
+const SHARPER: f64 = 1.5;
 
 /// A polygon that folds is told if it turns by so much more than before, in radians.
 const MORE_TURN: f64 = PI / 18.0;
