@@ -16,14 +16,12 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
 use crate::document::{CurveId, ParameterSpan};
-use crate::geometry::approximation::close_within;
+use crate::geometry::approximation::close_halves;
 use crate::geometry::approximation::merging::{MergeError, check_joint, joint_of, merge};
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::{
-    BezierPolygon, End, FloatPolygon, Mirror, PolygonError, Progress, significant,
-};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, Mirror, Progress, counted, significant};
 
 const AXIS: Parameter = Parameter {
     name: "axis",
@@ -52,9 +50,6 @@ const KEEP: Parameter = Parameter {
 /// The share of the tolerance that cutting the curve in half may take.
 const OF_CUT: f64 = 0.1;
 
-/// The shares that closing the whole may take, before the mean with its image.
-const OF_CLOSING: [f64; 2] = [0.5, 0.1];
-
 /// The shares that merging the half with its image may take, before the mean of both: each search finds another curve.
 const OF_MERGE: [f64; 3] = [0.5, 0.2, 1.0];
 
@@ -63,9 +58,6 @@ const HALVINGS: u32 = 6;
 
 /// The samples of a segment among which the curve crosses the mirror plane.
 const SAMPLES: usize = 32;
-
-/// A curve that crosses the plane by less than this share of its size only touches it.
-const TOUCHES: f64 = 1e-9;
 
 /// A curve that moves by more than this share of its size was hardly symmetric.
 const FAR: f64 = 0.02;
@@ -121,22 +113,25 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let axes = values.choice(&AXIS, &[[true, false, false], [false, true, false]]);
     let mirror = plane_or_line(values, axes)?;
     let keep = values.choice(&KEEP, &[None, Some(Half::First), Some(Half::Second)]);
-    let crossings = crossings(polygon, &mirror);
+    let size = BezierPolygon::from_float(polygon).size();
+    let tolerance = given(values, &TOLERANCE).unwrap_or(WITHIN * size);
+    let crossings = crossings(polygon, &mirror, tolerance);
+    let last = polygon.segments() as f64;
     let (half, span) = match (keep, &crossings[..]) {
         (None, [_, ..]) => return nearest(input, polygon, &mirror),
         (None, []) if polygon.is_periodic() => return nearest(input, polygon, &mirror),
-        (Some(_), _) if polygon.is_periodic() => {
-            let done = "cut in half";
-            return Err(PolygonError::PeriodicCurve { done }.into());
+        (Some(Half::First), [first, second]) if polygon.is_periodic() => {
+            (Half::First, [*first, *second])
         }
+        (Some(Half::Second), [first, second]) if polygon.is_periodic() => {
+            (Half::First, [*second, first + last])
+        }
+        (Some(_), _) if polygon.is_periodic() => return Ok(no_halves(id, crossings.len())),
         (Some(Half::First), [first, ..]) => (Half::First, [0.0, *first]),
-        (Some(Half::Second), [.., last]) => (Half::Second, [*last, polygon.segments() as f64]),
-        (_, []) => (
-            nearer_end(polygon, &mirror),
-            [0.0, polygon.segments() as f64],
-        ),
+        (Some(Half::Second), [.., at]) => (Half::Second, [*at, last]),
+        (_, []) => (nearer_end(polygon, &mirror), [0.0, last]),
     };
-    completed(input, values, (half, span), &mirror, progress)
+    completed(input, (half, span), &mirror, tolerance, progress)
 }
 
 /// The mean of the curve and its image.
@@ -157,15 +152,20 @@ fn nearest(
     let size = BezierPolygon::from_float(polygon).size();
     let is_far = deviation > FAR * size;
     let is_flat = is_far && smaller_side(&symmetric) < FLAT * smaller_side(polygon);
+    let is_outline = !polygon.is_periodic() && joint_of(polygon, polygon).meets(WITHIN * size);
+    let advice = match is_outline {
+        true => "its ends meet: close it first",
+        false => "its halves differ much: keep one of them",
+    };
     let mut outcome = Outcome::reshaped(id, symmetric, Deviation::AtMost(deviation));
     if deviation > ANOTHER * size || is_flat {
         outcome.requirements = vec![(id, vec![Requirement::Failed { left: None }])];
     }
     if is_far {
         let moved = significant(deviation, 3);
-        outcome.warnings.push(format!(
-            "The curve moves by up to {moved}: its halves differ much; keep one of them (--keep)"
-        ));
+        outcome
+            .warnings
+            .push(format!("The curve moves by up to {moved}, {advice}"));
     }
     Ok(outcome)
 }
@@ -184,28 +184,27 @@ pub(super) fn smaller_side(polygon: &FloatPolygon) -> f64 {
 /// One half of the curve, or all of a curve on one side, with its image.
 fn completed(
     input: &Operands,
-    values: &Values,
     (half, span): (Half, [f64; 2]),
     mirror: &Mirror,
+    tolerance: f64,
     progress: &Progress,
 ) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let polygon = &curve.polygon;
     let size = BezierPolygon::from_float(polygon).size();
-    let tolerance = given(values, &TOLERANCE).unwrap_or(WITHIN * size);
     let (part, cut) = cut(polygon, span, OF_CUT * tolerance)?;
     let image = image(&part, mirror)?;
     let [first, second] = half.in_order(&part, &image);
     let joint = joint_of(first, second);
     let whole = match check_joint(joint, part.size(), tolerance) {
+        // Where the outer ends meet as well, the curve is one half of a closed outline.
+        Ok(()) if is_outline([first, second], tolerance) => {
+            closed([first, second], mirror, tolerance, progress)?
+        }
+        Ok(()) if polygon.is_periodic() => return Ok(corner(id, joint_of(second, first).angle)),
         Ok(()) => merged([first, second], mirror, tolerance, progress)?,
         Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
         Err(_) => bridged([first, second], mirror, progress)?,
-    };
-    // Where the outer ends meet as well, the curve is one half of a closed outline.
-    let whole = match is_outline([first, second], tolerance) {
-        true => closed(whole, [first, second], mirror, tolerance, progress)?,
-        false => whole,
     };
     let symmetric = whole.polygon;
     let deviation = whole.off + cut;
@@ -215,13 +214,11 @@ fn completed(
         (None, true) => Deviation::AtMost(deviation),
         (None, false) => Deviation::Measured(deviation),
     };
-    let spans = vec![ParameterSpan {
-        old: span,
-        new: match half {
-            Half::First => [0.0, whole.joint[0]],
-            Half::Second => [whole.joint[1], symmetric.segments() as f64],
-        },
-    }];
+    let new = match half {
+        Half::First => [0.0, whole.joint[0]],
+        Half::Second => [whole.joint[1], symmetric.segments() as f64],
+    };
+    let spans = spans(span, new, polygon.segments() as f64);
     let middle = symmetric.point(0.5 * (whole.joint[0] + whole.joint[1]));
     let (count, closes) = (symmetric.vertices().len(), symmetric.is_periodic());
     let mut outcome = Outcome::renumbered(input, symmetric, spans, deviation_is)?;
@@ -240,7 +237,13 @@ fn completed(
         found: deviation,
         most: tolerance,
     };
-    let failed = whole.fault.as_ref();
+    let another = replaced
+        .filter(|moved| *moved > ANOTHER * size)
+        .map(|moved| {
+            let moved = significant(moved, 3);
+            format!("The half that its image replaces moves by up to {moved}: it is another curve")
+        });
+    let failed = whole.fault.as_ref().or(another.as_ref());
     let failed = failed.map(|_| Requirement::Failed { left: None });
     outcome.requirements = vec![(id, failed.into_iter().chain([limit]).collect())];
     outcome.figures = vec![
@@ -253,8 +256,22 @@ fn completed(
             "The half that is kept moves by up to {kept}. The other half, now its image, moves by up to {replaced}"
         ));
     }
-    outcome.warnings.extend(whole.fault.or(whole.knuckle));
+    let told = [another, whole.fault.or(whole.knuckle)];
+    outcome.warnings.extend(told.into_iter().flatten());
     Ok(outcome)
+}
+
+/// The spans of the part that is kept: across the joint of a periodic curve there are two.
+fn spans([from, to]: [f64; 2], [start, end]: [f64; 2], last: f64) -> Vec<ParameterSpan> {
+    let span = |old: [f64; 2], new: [f64; 2]| ParameterSpan { old, new };
+    if to <= last {
+        return vec![span([from, to], [start, end])];
+    }
+    let joint = start + (end - start) * (last - from) / (to - from);
+    vec![
+        span([from, last], [start, joint]),
+        span([0.0, to - last], [joint, end]),
+    ]
 }
 
 /// How far a curve is from the symmetric one where that replaces a part of it; `None` if all of it is kept.
@@ -332,46 +349,46 @@ fn is_outline([first, second]: [&FloatPolygon; 2], tolerance: f64) -> bool {
     joint.meets(tolerance) && is_smooth && first.is_planar()
 }
 
-/// Make the whole periodic, as both of its ends meet; if no near curve is found, it stays open and says so.
+/// The nearest periodic curve of a half and its image.
 fn closed(
-    whole: Whole,
-    [first, _]: [&FloatPolygon; 2],
+    parts: [&FloatPolygon; 2],
     mirror: &Mirror,
     tolerance: f64,
     progress: &Progress,
 ) -> Result<Whole, OperationError> {
-    for share in OF_CLOSING {
-        let found = close_within(
-            &whole.polygon,
-            share * tolerance,
-            &progress.limited(MERGING),
-        );
-        let Ok(found) = found else {
-            continue;
+    let limited = progress.limited(MERGING);
+    let mut nearest: Option<Whole> = None;
+    for share in OF_MERGE {
+        let found = match close_halves(parts, share * tolerance, &limited) {
+            Ok(found) => found,
+            Err(_) if progress.is_cancelled() => return Err(OperationError::Cancelled),
+            Err(_) => continue,
         };
         let polygon = found.polygon.symmetrised(mirror)?;
-        let off = SideDeviation::of_curve(first, &polygon, progress);
-        let off = off
-            .map_err(|_| OperationError::Cancelled)?
-            .largest
-            .distance();
-        if off <= tolerance {
-            return Ok(Whole {
-                joint: whole.joint.map(|at| found.tracks[0].at(at)),
-                polygon,
-                off,
-                bounded: false,
-                ..whole
-            });
+        let off = SideDeviation::of_curve(parts[0], &polygon, progress);
+        let off = off.map_err(|_| OperationError::Cancelled)?;
+        let off = off.largest.distance();
+        let whole = Whole {
+            joint: [
+                found.tracks[0].at(parts[0].segments() as f64),
+                found.tracks[1].at(0.0),
+            ],
+            polygon,
+            method: "merge",
+            off,
+            bounded: false,
+            fault: None,
+            knuckle: (off > tolerance).then(|| rounded_corners(parts)),
+        };
+        if nearest.as_ref().is_none_or(|known| whole.off < known.off) {
+            nearest = Some(whole);
+        }
+        let limit = (1.0 - OF_CUT) * tolerance;
+        if nearest.as_ref().is_some_and(|known| known.off <= limit) {
+            break;
         }
     }
-    if progress.is_cancelled() {
-        return Err(OperationError::Cancelled);
-    }
-    Ok(Whole {
-        knuckle: Some("The outer ends meet as well, but no closed curve is near enough: Close curve may take one".to_owned()),
-        ..whole
-    })
+    nearest.ok_or(MergeError::NotFound.into())
 }
 
 /// Bridge the gap between a curve and its image.
@@ -400,14 +417,45 @@ fn bridged(
     })
 }
 
+/// Say which corners keep a closed curve from being near.
+fn rounded_corners([first, second]: [&FloatPolygon; 2]) -> String {
+    let angles = [joint_of(first, second), joint_of(second, first)].map(|joint| {
+        let degrees = joint.angle.to_degrees();
+        significant(degrees, 2)
+    });
+    let [inner, outer] = angles;
+    format!(
+        "The curve meets its image at corners of {inner}° and {outer}°, which are rounded: turn its ends perpendicular to the axis, or raise “{}”",
+        TOLERANCE.label
+    )
+}
+
 /// Say that a half meets its image at a corner.
 fn corner(id: CurveId, angle: f64) -> Outcome {
     let angle = significant(angle.to_degrees(), 3);
+    refused(
+        id,
+        format!(
+            "The curve meets its image at a corner of {angle}°: turn its end perpendicular to the axis first"
+        ),
+    )
+}
+
+/// Say that the axis does not cut a closed curve in half.
+fn no_halves(id: CurveId, crossings: usize) -> Outcome {
+    let times = counted(crossings, "time", "times");
+    refused(
+        id,
+        format!(
+            "The curve crosses the axis {times}: only one that crosses it twice has two halves"
+        ),
+    )
+}
+
+fn refused(id: CurveId, why: String) -> Outcome {
     Outcome {
         requirements: vec![(id, vec![Requirement::Failed { left: None }])],
-        remarks: vec![format!(
-            "The curve meets its image at a corner of {angle}°: turn its end perpendicular to the axis first"
-        )],
+        remarks: vec![why],
         ..Outcome::unchanged(Deviation::Unmeasured)
     }
 }
@@ -441,26 +489,30 @@ fn image(part: &FloatPolygon, mirror: &Mirror) -> Result<FloatPolygon, Operation
     Ok(FloatPolygon::new(part.degree(), vertices, weights, false)?)
 }
 
-/// The parameters at which a curve crosses the mirror plane; none where it only touches it.
-fn crossings(polygon: &FloatPolygon, mirror: &Mirror) -> Vec<f64> {
-    let height = |u: f64| mirror.height(polygon.point(u)).unwrap_or(0.0);
-    let last = polygon.segments() * SAMPLES;
-    let least = TOUCHES * polygon.size();
-    let mut crossings = Vec::new();
-    let mut before: Option<(f64, f64)> = None;
-    for sample in 0..=last {
-        let u = sample as f64 / SAMPLES as f64;
-        let here = height(u);
-        if here.abs() <= least {
-            continue;
+/// The parameters at which a curve crosses the mirror plane, in their order; none where it stays within the tolerance on
+/// one side.
+fn crossings(polygon: &FloatPolygon, mirror: &Mirror, tolerance: f64) -> Vec<f64> {
+    let last = polygon.segments() as f64;
+    let inside = |u: f64| {
+        if u >= last && polygon.is_periodic() {
+            u - last
+        } else {
+            u
         }
-        if let Some((from, there)) = before
-            && there * here < 0.0
-        {
-            crossings.push(bisected([from, u], there, height));
-        }
-        before = Some((u, here));
-    }
+    };
+    let height = |u: f64| mirror.height(polygon.point(inside(u))).unwrap_or(0.0);
+    let samples = 0..=polygon.segments() * SAMPLES;
+    let heights = samples.map(|sample| sample as f64 / SAMPLES as f64);
+    let heights = heights.map(|u| (u, height(u)));
+    let heights: Vec<(f64, f64)> = heights.filter(|(_, at)| at.abs() > tolerance).collect();
+    // A closed curve goes on from its end to its start.
+    let over_the_joint = heights.first().filter(|_| polygon.is_periodic());
+    let over_the_joint = over_the_joint.map(|(u, at)| (u + last, *at));
+    let walked: Vec<(f64, f64)> = heights.iter().copied().chain(over_the_joint).collect();
+    let crossed = walked.windows(2).filter(|pair| pair[0].1 * pair[1].1 < 0.0);
+    let crossings = crossed.map(|pair| inside(bisected([pair[0].0, pair[1].0], pair[0].1, height)));
+    let mut crossings: Vec<f64> = crossings.collect();
+    crossings.sort_by(f64::total_cmp);
     crossings
 }
 

@@ -177,22 +177,112 @@ fn a_corner_at_the_axis_is_not_reached() {
 }
 
 #[test]
-fn closed_curves_become_symmetric_and_halves_of_them_are_refused() {
+fn closed_curves_become_symmetric() {
     let vertex = |index: usize| {
         let angle = std::f64::consts::TAU * (index as f64 + 0.3) / 12.0;
         DVec3::new(3.0 * angle.cos() + 0.1, 2.0 * angle.sin(), 0.0)
     };
     let vertices = (0..12).map(vertex).collect();
     let polygon = FloatPolygon::new(5, vertices, None, true).expect("a polygon");
-    let runner = Runner::of(polygon);
-    let (_, curves) = runner.done("make-symmetric", &[]);
+    let (_, curves) = Runner::of(polygon).done("make-symmetric", &[]);
     let symmetric = &curves[0].polygon;
     assert!(symmetric.is_periodic());
     for vertex in symmetric.vertices() {
         assert!(symmetric.vertices().contains(&MIRROR.point(*vertex)));
     }
-    let refused = runner.refused("make-symmetric", &[FIRST]);
-    assert!(refused.contains("cut in half"), "{refused}");
+}
+
+/// An egg whose halves differ, beginning at some angle; it leaves the axis at a right angle.
+fn egg(begin: f64) -> FloatPolygon {
+    let vertex = |index: usize| {
+        let angle = std::f64::consts::TAU * (index as f64 + begin) / 48.0;
+        let (sin, cos) = angle.sin_cos();
+        DVec3::new(3.0 * cos + 0.5 * cos * cos, 2.0 * sin, 0.0)
+    };
+    let vertices = (0..48).map(vertex).collect();
+    FloatPolygon::new(5, vertices, None, true).expect("a polygon")
+}
+
+#[test]
+fn either_half_of_a_closed_curve_is_completed_by_its_image() {
+    for begin in [5.3, 12.2] {
+        let polygon = egg(begin);
+        let mut widths = Vec::new();
+        for keep in [FIRST, SECOND] {
+            let (outcome, curves) = Runner::of(polygon.clone()).done("make-symmetric", &[keep]);
+            assert!(outcome.reached, "begin {begin}: {:?}", outcome.warnings);
+            let whole = &curves[0].polygon;
+            assert!(whole.is_periodic());
+            assert_eq!(whole.symmetrised(&MIRROR).as_ref(), Ok(whole));
+            let steps = 8 * whole.segments();
+            let across = (0..steps).map(|it| whole.point(it as f64 / 8.0).x);
+            widths.push(across.fold(0.0, f64::max));
+        }
+        widths.sort_by(f64::total_cmp);
+        // The halves are 3 − 0.5 and 3 + 0.5 wide.
+        let [narrow, wide] = widths[..] else {
+            panic!("{widths:?}")
+        };
+        assert!(
+            (2.4..2.55).contains(&narrow) && (3.4..3.55).contains(&wide),
+            "{widths:?}"
+        );
+    }
+}
+
+#[test]
+fn a_start_that_hardly_crosses_the_axis_is_no_half() {
+    let polygon = egg(12.0);
+    // The curve begins on the axis, or by a hair before it.
+    let size = polygon.size();
+    let onto = (0..=1000).map(|it| f64::from(it) * 0.01 * 0.48);
+    let start = onto.min_by(|a, b| {
+        polygon
+            .point(*a)
+            .x
+            .abs()
+            .total_cmp(&polygon.point(*b).x.abs())
+    });
+    let start = start.expect("a place");
+    for before in [0.0, 1e-3] {
+        let from = (start - before).rem_euclid(48.0);
+        let open = polygon
+            .trimmed(from, from + 47.999, 3)
+            .expect("a part")
+            .polygon;
+        let runner = Runner::of(open);
+        for keep in [FIRST, SECOND] {
+            let outcome = runner
+                .run("make-symmetric", std::slice::from_ref(&keep))
+                .expect("it can run");
+            if outcome.reached {
+                let (_, curves) = runner.done("make-symmetric", &[keep]);
+                let whole = curves[0].polygon.size();
+                assert!((whole / size - 1.0).abs() < 0.1, "{before}: {whole}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_closed_curve_beside_the_axis_has_no_halves() {
+    let vertices = egg(0.0)
+        .vertices()
+        .iter()
+        .map(|it| *it + 9.0 * DVec3::X)
+        .collect();
+    let polygon = FloatPolygon::new(5, vertices, None, true).expect("a polygon");
+    let outcome = Runner::of(polygon).run("make-symmetric", &[FIRST]);
+    let outcome = outcome.expect("it can run");
+    assert!(!outcome.reached);
+    assert!(
+        outcome
+            .remarks
+            .concat()
+            .contains("crosses the axis 0 times"),
+        "{:?}",
+        outcome.remarks
+    );
 }
 
 #[test]

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 
 use super::blending::blend;
 use super::merging::{
-    KEPT, MOST, MergeError, Merged, SMALLEST, Track, check_joint, counts_of, goes_on, joint_of,
-    sampled, samples_of,
+    self, KEPT, MOST, MergeError, Merged, SMALLEST, Track, beside, check_joint, counts_of, goes_on,
+    joint_of, sampled, samples_of,
 };
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::end::End;
@@ -46,7 +46,7 @@ pub fn close_within(
     let counts = counts_of([polygon], progress)?;
     if let Some(closed) = continued(polygon) {
         let [extrema, _] = counts_of([&closed], progress)?;
-        return measured(polygon, closed, [counts[0], extrema], progress);
+        return measured(&[polygon], closed, [counts[0], extrema], progress);
     }
     if !polygon.is_planar() {
         return Err(MergeError::NotFound);
@@ -75,6 +75,33 @@ pub fn close_within(
     }
 }
 
+/// Make a periodic curve without weights of two planar ones that meet at both ends, but for small corners, within a
+/// tolerance: as [`close_within`] where ends meet.
+///
+/// # Errors
+/// As [`close_within`].
+pub fn close_halves(
+    parts: [&FloatPolygon; 2],
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Merged, MergeError> {
+    let counts = counts_of(parts, progress)?;
+    if let Some(closed) = merging::continued(parts).and_then(|whole| continued(&whole)) {
+        let [extrema, _] = counts_of([&closed], progress)?;
+        return measured(&parts, closed, [counts[0], extrema], progress);
+    }
+    if !parts.iter().all(|part| part.is_planar()) {
+        return Err(MergeError::NotFound);
+    }
+    let [mut points, others] = parts.map(|part| {
+        let mut points = sampled(part, samples_of(part));
+        points.pop();
+        points
+    });
+    points.extend(others);
+    Closing::between(parts.to_vec(), points, counts, tolerance).fitted(progress)
+}
+
 /// The exact curve where the last n vertices are the first ones, as those of a periodic curve cut at a knot are.
 fn continued(polygon: &FloatPolygon) -> Option<FloatPolygon> {
     let kept = polygon.vertices().len().checked_sub(polygon.degree())?;
@@ -98,7 +125,8 @@ fn bulges(closed: &FloatPolygon, open: &FloatPolygon) -> bool {
 
 /// What a periodic curve is to be near to.
 struct Closing<'a> {
-    polygon: &'a FloatPolygon,
+    /// What it closes, in order.
+    parts: Vec<&'a FloatPolygon>,
     points: Vec<DVec3>,
     /// The extrema and inflections of the curve.
     counts: [usize; 2],
@@ -117,9 +145,19 @@ impl<'a> Closing<'a> {
         let mut points = sampled(polygon, samples_of(polygon));
         points.pop();
         points.retain(|point| gap == 0.0 || point.distance(middle) > BESIDE * gap);
+        Self::between(vec![polygon], points, counts, tolerance)
+    }
+
+    /// Let curves go over into each other.
+    fn between(
+        parts: Vec<&'a FloatPolygon>,
+        points: Vec<DVec3>,
+        counts: [usize; 2],
+        tolerance: f64,
+    ) -> Self {
         let [_, inflections] = counts;
         Self {
-            polygon,
+            parts,
             points,
             counts,
             bends: inflections % 2,
@@ -145,7 +183,7 @@ impl<'a> Closing<'a> {
         let [_, inflections] = counts;
         let is_plain = bends == 0 && inflections % 2 == 0;
         Ok(Self {
-            polygon,
+            parts: vec![polygon],
             points,
             counts,
             bends,
@@ -156,12 +194,13 @@ impl<'a> Closing<'a> {
 
     /// The curve with the fewest extrema within the tolerance; else the nearest one.
     fn fitted(&self, progress: &Progress) -> Result<Merged, MergeError> {
-        let polygon = self.polygon;
+        let degrees = self.parts.iter().map(|part| part.degree());
+        let vertices: usize = self.parts.iter().map(|part| part.vertices().len()).sum();
         let points: Vec<DVec2> = self.points.iter().map(|point| point.truncate()).collect();
         let wanted = PlaneFit {
-            degree: polygon.degree(),
+            degree: degrees.max().unwrap_or_default(),
             periodic: true,
-            most: Some((MOST * polygon.vertices().len()).max(SMALLEST)),
+            most: Some((MOST * vertices).max(SMALLEST)),
             inflections: self.inflections,
             tolerance: Some(KEPT * self.tolerance),
             outliers: Some(Vec::new()),
@@ -179,26 +218,36 @@ impl<'a> Closing<'a> {
         };
         let endless = progress.without_limit();
         let [extrema, after] = counts_of([&closed], &endless)?;
-        let closed = measured(polygon, closed, [self.counts[0], extrema], &endless)?;
+        let closed = measured(&self.parts, closed, [self.counts[0], extrema], &endless)?;
         let waves = after.saturating_sub(self.counts[1] + self.bends);
         Ok(Merged { waves, ..closed })
     }
 }
 
 fn measured(
-    polygon: &FloatPolygon,
+    parts: &[&FloatPolygon],
     closed: FloatPolygon,
     extrema: [usize; 2],
     progress: &Progress,
 ) -> Result<Merged, MergeError> {
     let cancelled = |_| MergeError::Cancelled;
-    let side = SideDeviation::of_curve(polygon, &closed, progress).map_err(cancelled)?;
-    let track = Track::along(&closed, polygon, 0.0);
+    let mut deviation = 0.0_f64;
+    let mut tracks: Vec<Track> = Vec::new();
+    let mut end = 0.0;
+    for part in parts.iter().copied() {
+        let side = SideDeviation::of_curve(part, &closed, progress).map_err(cancelled)?;
+        deviation = deviation.max(side.largest.distance());
+        let track = Track::along(&closed, part, beside(&closed, part.point(0.0), end));
+        end = track.at(part.segments() as f64);
+        tracks.push(track);
+    }
+    let last = tracks.pop().ok_or(MergeError::NotFound)?;
+    let first = tracks.pop().unwrap_or_else(|| last.clone());
     Ok(Merged {
         waves: 0,
         polygon: closed,
-        tracks: [track.clone(), track],
-        deviation: side.largest.distance(),
+        tracks: [first, last],
+        deviation,
         bounded: false,
         extrema,
     })

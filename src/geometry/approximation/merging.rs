@@ -449,7 +449,7 @@ fn added_by_joint([first, second]: [&FloatPolygon; 2], planar: bool, tolerance: 
 
 /// The exact curve where the second one goes on with the knots and the last n vertices of the first, as the parts of a
 /// curve do that was split at a knot.
-fn continued([first, second]: [&FloatPolygon; 2]) -> Option<FloatPolygon> {
+pub(super) fn continued([first, second]: [&FloatPolygon; 2]) -> Option<FloatPolygon> {
     if !goes_on([first, second]) {
         return None;
     }
@@ -582,7 +582,7 @@ fn measured(
 
 /// The parameter of the nearest sample to a point, walking from a parameter: the curves that are merged may overlap or
 /// leave a gap.
-fn beside(polygon: &FloatPolygon, point: DVec3, from: f64) -> f64 {
+pub(super) fn beside(polygon: &FloatPolygon, point: DVec3, from: f64) -> f64 {
     let step = 1.0 / TRACKED as f64;
     let last = polygon.segments() as f64;
     let off = |u: f64| polygon.point(u).distance(point);

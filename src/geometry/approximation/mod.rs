@@ -17,7 +17,7 @@ pub use approximating::{
     approximate_by_steps, approximate_to_tolerance,
 };
 pub use blending::blend;
-pub use closing::{SMALL_GAP, close_within};
+pub use closing::{SMALL_GAP, close_halves, close_within};
 pub use equivalence::{LevelComparison, LevelFeature, SideBySide};
 pub use error::ApproximationError;
 pub use fitting::{FitError, FitRequest, Fitted, fit_points};
