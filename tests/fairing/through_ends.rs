@@ -93,7 +93,7 @@ fn roughness(vertices: &[DVec3], tail: usize, points: &[DVec3]) -> f64 {
     let last = points.len() - 1;
     let stiffness = [[0, 1, 2], [last, last - 1, last - 2]].map(|[a, b, c]| {
         let [first, second] = [(a, b), (b, c)].map(|(a, b)| points[a].distance(points[b]));
-        (second / first).max(1.0).powi(2)
+        (second / first).max(1.0).powi(4)
     });
     let second = |(first, p): (usize, &[DVec3])| {
         let weight = match first {
@@ -216,6 +216,7 @@ fn ends_do_not_hook() {
 fn a_short_first_leg_does_not_turn_the_start_round() {
     let mut random = Random(9);
     for case in 0..300 {
+        // The parabolas of degree 2 turn within the first leg.
         let degree = 3 + case % 7;
         let short = random.between(0.02, 0.5);
         let (mut at, mut heading) = (DVec3::ZERO, 0.0_f64);
@@ -249,7 +250,7 @@ fn a_short_first_leg_does_not_turn_the_start_round() {
             };
             let samples = (0..=32).map(|it| polygon.jet(begin + f64::from(it) / 32.0).curvature());
             let sharpest = samples.fold(0.0, f64::max) * first_leg.length();
-            assert!(sharpest < 3.0, "degree {degree}, leg {short}: {sharpest}");
+            assert!(sharpest < 2.0, "degree {degree}, leg {short}: {sharpest}");
         }
     }
 }

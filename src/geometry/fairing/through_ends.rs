@@ -8,7 +8,7 @@
 //!
 //! without the third differences where only two points are given: then the polygon is straight and
 //! evenly divided. Third differences alone would let the ends hook, second ones would flatten them. Within the vertices
-//! of an end and the point beside them, w = r², with r ≥ 1 the ratio of the second leg between the points to the first:
+//! of an end and the point beside them, w = r⁴, with r ≥ 1 the ratio of the second leg between the points to the first:
 //! beside a short leg the end would leave it backward. Elsewhere w = 1.
 
 use std::ops::Range;
@@ -25,7 +25,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 const ORDERS: [(usize, f64); 2] = [(2, 0.3), (3, 1.0)];
 
 /// The ratio of legs beyond which second differences weigh no more: equations stay regular.
-const MOST_RATIO: f64 = 1e3;
+const MOST_RATIO: f64 = 1e2;
 
 /// Repetitions that remove the rounding errors of the conditions.
 const REFINEMENTS: usize = 3;
@@ -113,7 +113,7 @@ fn stiffness(points: impl Iterator<Item = DVec3>) -> f64 {
     let points: Vec<DVec3> = points.take(3).collect();
     let legs = points.windows(2).map(|pair| pair[0].distance(pair[1]));
     match legs.collect::<Vec<f64>>()[..] {
-        [first, second] if second > first => (second / first).min(MOST_RATIO).powi(2),
+        [first, second] if second > first => (second / first).min(MOST_RATIO).powi(4),
         _ => 1.0,
     }
 }
