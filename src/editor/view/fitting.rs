@@ -11,6 +11,9 @@ use crate::editor::view::view::View;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::FloatPolygon;
 
+/// A curve whose curvature is less than this, by its size, is straight to rounding.
+const STRAIGHT: f64 = 1e-9;
+
 /// The length of the comb's longest tooth after a reset, as a share of the longer side of the curve's box.
 const COMB_HEIGHT: f64 = 0.35;
 
@@ -136,7 +139,7 @@ impl View {
     }
 
     /// The scale at which the longest tooth of all combs is as long as the largest box of their curves; `None` without
-    /// curvature.
+    /// curvature, or with that of rounding alone.
     pub(super) fn whole_comb_scale(&self, shown: Shown<'_>) -> Option<f64> {
         let (mut size, mut largest) = (0.0_f64, 0.0_f64);
         for id in self.with_comb(shown) {
@@ -150,7 +153,8 @@ impl View {
                 largest = largest.max(range.high.abs()).max(range.low.abs());
             }
         }
-        Some(size / largest).filter(|scale| *scale > 0.0 && scale.is_finite())
+        let scale = (size * largest > STRAIGHT).then(|| size / largest);
+        scale.filter(|scale| *scale > 0.0 && scale.is_finite())
     }
 
     /// The curves and references whose combs are shown where combs are, visible or active.
