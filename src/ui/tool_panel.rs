@@ -6,7 +6,7 @@ use glam::DVec2;
 use lucide_icons::Icon;
 
 use super::canvas::{self, Canvas};
-use super::draft::remark_ui;
+use super::draft::{remark_ui, select_all};
 use super::keyboard::{self, Typing};
 use super::message::sentence;
 use super::number_field::NumberField;
@@ -175,7 +175,13 @@ impl ToolPanel {
                 editor.type_entry("");
                 ui.memory_mut(|memory| memory.request_focus(canvas::id()));
             }
-            Err(error) => self.error = Some(error),
+            Err(error) => {
+                // What is typed next takes the place of a point that is refused.
+                if matches!(error, EntryError::Refused(_)) {
+                    select_all(ui.ctx(), id(), &self.text);
+                }
+                self.error = Some(error);
+            }
         }
         ui.ctx().request_repaint();
     }
