@@ -127,20 +127,48 @@ fn without(polygon: &FloatPolygon, indices: &[usize]) -> Result<FloatPolygon, Po
     FloatPolygon::new(polygon.degree(), vertices, weights, polygon.is_periodic())
 }
 
-/// The edit that makes a curve periodic or opens it; the polygon stays, and so do the segments that both have.
+/// The edit that makes a curve periodic or opens it.
+///
+/// Opened, it keeps its shape and begins and ends at its joint ([`FloatPolygon::unrolled`]). A periodic curve runs round
+/// all vertices; those that an opened one repeats go again ([`FloatPolygon::rolled`]).
 ///
 /// # Errors
-/// [`PolygonError`] if there are too few vertices.
-pub fn periodicity(id: CurveId, curve: &Curve, periodic: bool) -> Result<Edit, PolygonError> {
+/// [`EditError`] if there are too few vertices, or one of those that go is locked and not quite where the first is.
+pub fn periodicity(id: CurveId, curve: &Curve, periodic: bool) -> Result<Edit, EditError> {
     let old = &curve.polygon;
-    let weights = old.weights().map(<[f64]>::to_vec);
-    let polygon = FloatPolygon::new(old.degree(), old.vertices().to_vec(), weights, periodic)?;
+    let polygon = match periodic {
+        true => rolled(curve)?,
+        false => old.unrolled(),
+    };
+    let [before, now] = [old, &polygon].map(|it| it.vertices().len());
+    let round = before.min(now);
+    let is_locked = |vertex: &usize| {
+        let held = |vertex| curve.locked_vertices.contains(vertex);
+        held(vertex % round) || (now < before && held(vertex + now))
+    };
     let common = old.segments().min(polygon.segments()) as f64;
     let same = ParameterSpan::shifted([0.0, common], 0.0);
     Ok(Edit::Renumber {
         curve: id,
         renumbering: Renumbering::of_parameters(curve, &polygon, vec![same])
-            .with_locked_vertices(curve.locked_vertices.clone()),
+            .with_locked_vertices((0..now).filter(is_locked).collect()),
         polygon,
+    })
+}
+
+/// The polygon of a curve that runs round its vertices.
+fn rolled(curve: &Curve) -> Result<FloatPolygon, EditError> {
+    let old = &curve.polygon;
+    if let Some(rolled) = old.rolled() {
+        let kept = rolled.vertices().len();
+        let moves = |vertex: &usize| old.vertex(*vertex) != old.vertex(vertex - kept);
+        curve.check_vertices_unlocked((kept..old.vertices().len()).filter(moves))?;
+        return Ok(rolled);
+    }
+    let weights = old.weights().map(<[f64]>::to_vec);
+    let polygon = FloatPolygon::new(old.degree(), old.vertices().to_vec(), weights, true);
+    polygon.map_err(|error| EditError::Polygon {
+        name: curve.name.clone(),
+        error,
     })
 }

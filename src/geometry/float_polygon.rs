@@ -162,22 +162,6 @@ impl FloatPolygon {
         Ok(())
     }
 
-    /// Write the periodic curve's polygon as an open one: the first n vertices are repeated
-    /// behind the last, so that the open curve runs round once. An open polygon is returned as
-    /// it is.
-    pub fn unrolled(&self) -> Self {
-        let mut open = self.clone();
-        if self.periodic {
-            open.periodic = false;
-            let unrolled = &mut open.polygon.vertices;
-            unrolled.extend_from_slice(&self.vertices[..self.degree]);
-            if let (Some(unrolled), Some(weights)) = (&mut open.polygon.weights, &self.weights) {
-                unrolled.extend_from_slice(&weights[..self.degree]);
-            }
-        }
-        open
-    }
-
     /// Reverse the direction in which the curve runs; the curve itself is the same.
     pub fn reversed(&self) -> Self {
         let mut reversed = self.clone();

@@ -53,6 +53,7 @@ mod progress;
 mod quadrature;
 mod rebuilding;
 pub mod references;
+mod rolling;
 mod root;
 mod sampled_cusps;
 mod sampler;

@@ -256,12 +256,12 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
         (
             "Open",
             false,
-            "The curve ends where its first and last segments do",
+            "The curve begins and ends at its joint, with the same shape",
         ),
         (
             "Periodic",
             true,
-            "The curve closes round all vertices of its polygon",
+            "The curve runs round all vertices; those that repeat the first ones go",
         ),
     ] {
         let response = ui.add(Button::selectable(periodic == wanted, name));

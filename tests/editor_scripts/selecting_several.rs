@@ -4,7 +4,7 @@ use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
 use batten::editor::{CombsOf, Command, CopyForm, Editor, Key, Layer, Modifiers};
 use batten::geometry::references::KINDS;
 use batten::geometry::{Continuity, End, FloatPolygon};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::script::Script;
 use super::several::two;
@@ -451,5 +451,38 @@ fn a_curve_that_crosses_itself_or_bends_sharply_when_it_closes_says_so() {
         let is_told = warning.is_some_and(|it| told.is_some_and(|text| text.contains(it)));
         assert_eq!(is_told, warning.is_some(), "{message:?}");
         assert_eq!(told.is_some(), warning.is_some(), "{message:?}");
+    }
+}
+
+#[test]
+fn a_closed_curve_opens_at_its_joint_and_keeps_its_shape() {
+    let ring = |weights: Option<Vec<f64>>, height: f64| {
+        let vertices = (0..9).map(|index| {
+            let angle = f64::from(index) * std::f64::consts::TAU / 9.0;
+            let (x, y) = (20.0 * angle.cos(), 12.0 * angle.sin() - 3.0 * angle);
+            DVec3::new(x, y, height * f64::from(index))
+        });
+        FloatPolygon::new(4, vertices.collect(), weights, true).expect("a polygon")
+    };
+    let weights = (0..9).map(|index| 1.0 + 0.1 * f64::from(index)).collect();
+    for polygon in [ring(None, 0.0), ring(None, 1.0), ring(Some(weights), 0.0)] {
+        let mut curve = Curve::new("ring", polygon.clone());
+        curve.locked_vertices = [1, 7].into_iter().collect();
+        let mut script = Script {
+            editor: Editor::with_document(Document::from_curves([curve])),
+        };
+        let before = script.editor.document().clone();
+        script.command(Command::TogglePeriodic);
+        let open = script.editor.document().curve(script.curve());
+        let open = Curve::clone(open.expect("a curve"));
+        assert!(!open.polygon.is_periodic());
+        for step in 0..72 {
+            let u = f64::from(step) / 8.0;
+            assert_eq!(open.polygon.point(u), polygon.point(u), "u {u}");
+        }
+        // A locked vertex is there twice, and so is its lock.
+        assert_eq!(open.locked_vertices, [1, 7, 10].into_iter().collect());
+        script.command(Command::TogglePeriodic);
+        assert!(script.editor.document().is_same(&before));
     }
 }

@@ -132,8 +132,7 @@ impl Change {
         let change = Self::of(changes, label, |id| {
             let curve = document.curve(id).ok_or("There is no curve")?;
             curve.check_editable().map_err(|error| error.to_string())?;
-            let edit = periodicity(id, curve, periodic);
-            edit.map_err(|error| format!("{}: {error}", quoted(&curve.name)))
+            periodicity(id, curve, periodic).map_err(|error| error.to_string())
         })?;
         let mut edits = change.edits.iter().filter(|_| periodic);
         let warning = edits.find_map(|edit| warning_of_ring(document, edit));

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 
 use super::blending::blend;
 use super::merging::{
-    self, KEPT, MOST, MergeError, Merged, SMALLEST, Track, beside, check_joint, counts_of, goes_on,
-    joint_of, sampled, samples_of,
+    KEPT, MOST, MergeError, Merged, SMALLEST, Track, beside, check_joint, counts_of, joint_of,
+    sampled, samples_of,
 };
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::end::End;
@@ -44,7 +44,7 @@ pub fn close_within(
 ) -> Result<Merged, MergeError> {
     polygon.check_open("closed")?;
     let counts = counts_of([polygon], progress)?;
-    if let Some(closed) = continued(polygon) {
+    if let Some(closed) = polygon.rolled() {
         let [extrema, _] = counts_of([&closed], progress)?;
         return measured(&[polygon], closed, [counts[0], extrema], progress);
     }
@@ -86,7 +86,8 @@ pub fn close_halves(
     progress: &Progress,
 ) -> Result<Merged, MergeError> {
     let counts = counts_of(parts, progress)?;
-    if let Some(closed) = merging::continued(parts).and_then(|whole| continued(&whole)) {
+    let whole = parts[0].followed_by(parts[1]);
+    if let Some(closed) = whole.and_then(|whole| whole.rolled()) {
         let [extrema, _] = counts_of([&closed], progress)?;
         return measured(&parts, closed, [counts[0], extrema], progress);
     }
@@ -100,18 +101,6 @@ pub fn close_halves(
     });
     points.extend(others);
     Closing::between(parts.to_vec(), points, counts, tolerance).fitted(progress)
-}
-
-/// The exact curve where the last n vertices are the first ones, as those of a periodic curve cut at a knot are.
-fn continued(polygon: &FloatPolygon) -> Option<FloatPolygon> {
-    let kept = polygon.vertices().len().checked_sub(polygon.degree())?;
-    if !goes_on([polygon, polygon]) {
-        return None;
-    }
-    let vertices = polygon.vertices().iter().take(kept).copied().collect();
-    let weights = polygon.weights();
-    let weights = weights.map(|weights| weights.iter().take(kept).copied().collect());
-    FloatPolygon::new(polygon.degree(), vertices, weights, true).ok()
 }
 
 /// Whether a curve that is closed bends more sharply than the open one did.

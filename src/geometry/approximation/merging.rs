@@ -64,9 +64,6 @@ pub(super) const SMALLEST: usize = 60;
 /// The least and the most samples of a blend.
 const BLEND_SAMPLES: [usize; 2] = [2 * SAMPLES, 200];
 
-/// Vertices and weights that differ by no more than this share of the size are the same.
-const SHARED: f64 = 1e-12;
-
 /// The share of the time that is left for each number of extrema.
 const SHARE: f64 = 0.5;
 
@@ -211,7 +208,7 @@ pub fn merge(
     let joint = joint_of(first, second);
     check_joint(joint, first.size().max(second.size()), tolerance)?;
     let [own, inflections] = counts_of(parts, progress)?;
-    if let Some(polygon) = continued(parts) {
+    if let Some(polygon) = first.followed_by(second) {
         let [extrema, _] = counts_of([&polygon], progress)?;
         let merged = measured(parts, polygon, [own, extrema], progress);
         return merged.map_err(|_| MergeError::Cancelled);
@@ -445,38 +442,6 @@ fn added_by_joint([first, second]: [&FloatPolygon; 2], planar: bool, tolerance: 
     };
     let pairs = signs.windows(2);
     pairs.filter(|pair| pair[0] * pair[1] < 0.0).count()
-}
-
-/// The exact curve where the second one goes on with the knots and the last n vertices of the first, as the parts of a
-/// curve do that was split at a knot.
-pub(super) fn continued([first, second]: [&FloatPolygon; 2]) -> Option<FloatPolygon> {
-    if !goes_on([first, second]) {
-        return None;
-    }
-    let degree = first.degree();
-    let vertices = first.vertices().iter();
-    let vertices = vertices.chain(second.vertices().iter().skip(degree));
-    let weights = [first, second].iter().any(|it| it.is_rational()).then(|| {
-        let own = (0..first.vertices().len()).map(|it| first.weight(it));
-        let others = (degree..second.vertices().len()).map(|it| second.weight(it));
-        own.chain(others).collect()
-    });
-    FloatPolygon::new(degree, vertices.copied().collect(), weights, false).ok()
-}
-
-/// Whether a curve goes on with the knots and the last n vertices of another one, or of itself.
-pub(super) fn goes_on([first, second]: [&FloatPolygon; 2]) -> bool {
-    let degree = first.degree();
-    let Some(begin) = first.vertices().len().checked_sub(degree) else {
-        return false;
-    };
-    let size = first.size().max(second.size());
-    let is_shared = |index: usize| {
-        let [one, other] = [begin + index, index];
-        first.vertex(one).distance(second.vertex(other)) <= SHARED * size
-            && (first.weight(one) - second.weight(other)).abs() <= SHARED * first.weight(one)
-    };
-    second.degree() == degree && begin > 0 && (0..degree).all(is_shared)
 }
 
 /// Whether the curvature of planar curves changes its sign where they meet.
