@@ -81,6 +81,35 @@ fn undo_is_offered_for_points_in_an_empty_document_too() {
 }
 
 #[test]
+fn redo_sets_the_point_again_that_undo_took_back() {
+    let mut script = Script::example("arc");
+    let before = script.steps();
+    script.drag_vertex(2, DVec2::new(9.0, 5.0));
+    script.command(Command::Undo);
+    script.tool(ToolKind::Draw);
+    let clicks = [(200.0, 200.0), (300.0, 260.0), (400.0, 220.0)].map(DVec2::from);
+    for at in clicks {
+        script.click(at);
+    }
+    script.command(Command::Undo);
+    script.command(Command::Undo);
+    for _ in 0..2 {
+        assert!(Command::Redo.is_enabled(&script.editor));
+        script.command(Command::Redo);
+    }
+    assert!(
+        !Command::Redo.is_enabled(&script.editor),
+        "the step comes after the drawing"
+    );
+    // Another point takes the place of what was taken back.
+    script.command(Command::Undo);
+    script.click(DVec2::new(420.0, 300.0));
+    assert!(!Command::Redo.is_enabled(&script.editor));
+    script.key(Key::Enter);
+    assert_eq!(script.steps(), before + 1);
+}
+
+#[test]
 fn a_cancelled_drawing_comes_back() {
     let mut script = drawing();
     let before = script.editor.document().len();

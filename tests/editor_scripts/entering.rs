@@ -150,6 +150,31 @@ fn the_curve_that_a_click_would_make_follows_the_pointer_and_what_is_typed() {
 }
 
 #[test]
+fn a_pointer_that_rests_proposes_no_point_after_a_typed_one() {
+    let mut script = empty(ToolKind::Draw);
+    script.move_to(DVec2::new(60.0, 500.0));
+    for text in ["0,30", "100,30", "100,80"] {
+        enter(&mut script, text);
+    }
+    let end = |script: &mut Script| *proposed(script).last().expect("a curve");
+    let rests = end(&mut script);
+    let last = DVec2::new(100.0, 80.0);
+    script.draw_by(DrawWay::OnClicks);
+    assert!(
+        end(&mut script).distance(last) < 1e-9,
+        "the curve ends at the last point"
+    );
+    script.draw_by(DrawWay::Vertices);
+    assert_eq!(end(&mut script), rests);
+    script.move_to(DVec2::new(70.0, 500.0));
+    assert_ne!(
+        end(&mut script),
+        rests,
+        "the pointer proposes a point once it moves"
+    );
+}
+
+#[test]
 fn escape_while_drawing_restores_to_the_bit() {
     let mut script = Script::example("s-curve");
     let before = script.editor.document().clone();

@@ -35,6 +35,10 @@ impl Editor {
         let shown = self.message.take();
         let reply = match command {
             Command::Undo => Ok(self.undo()),
+            Command::Redo if self.hand.tools.used().redo_label().is_some() => {
+                self.hand.tools.used_mut().redo();
+                return Ok(Note::silent());
+            }
             Command::Redo => {
                 self.interrupt();
                 let redone = self.step(Workspace::redo);

@@ -16,11 +16,7 @@ impl Command {
             |id: CurveId| editor.active() != Some(id) && editor.document().name(id).is_some();
         match self {
             Command::Undo => undo_label(editor).is_some(),
-            Command::Redo => {
-                editor.workspace.history().redo_label().is_some()
-                    && editor.hand.tools.used().undo_label().is_none()
-                    && editor.workspace.preview().is_none()
-            }
+            Command::Redo => redo_label(editor).is_some() && editor.workspace.preview().is_none(),
             Command::Delete => active || !editor.hand.tools.used().drawn().is_empty(),
             Command::Duplicate
             | Command::DeleteCurve
@@ -109,7 +105,7 @@ impl Command {
         match self {
             Command::Compare(Some(id)) => editor.document().name(id).map(str::to_owned),
             Command::Undo => undo_label(editor).map(named),
-            Command::Redo => editor.workspace.history().redo_label().map(named),
+            Command::Redo => redo_label(editor).map(named),
             Command::ToggleVerticesLocked => {
                 let label = locking::command_label(&editor.hand.selection, editor.document());
                 Some(label.to_owned())
@@ -128,4 +124,15 @@ fn undo_label(editor: &Editor) -> Option<&str> {
     }
     let point = editor.hand.tools.used().undo_label();
     point.or_else(|| editor.workspace.history().undo_label())
+}
+
+/// The label of the step that redo makes again: a point of an unfinished drawing, or a step of the document while
+/// nothing is drawn.
+fn redo_label(editor: &Editor) -> Option<&str> {
+    let tool = editor.hand.tools.used();
+    let of_document = || editor.workspace.history().redo_label();
+    match tool.undo_label() {
+        None => tool.redo_label().or_else(of_document),
+        Some(_) => tool.redo_label(),
+    }
 }

@@ -21,10 +21,14 @@ const DEGREE: usize = 5;
 #[derive(Debug, Default)]
 pub struct DrawTool {
     points: Vec<DVec3>,
+    /// The points that undo took back, the last one first.
+    undone: Vec<DVec3>,
     /// The points that Esc took away.
     discarded: Vec<DVec3>,
     /// Where the drag that goes on began.
     pressed: Option<DVec2>,
+    /// Where the pointer rested on the canvas when the last point was typed: until it moves it proposes none.
+    rested: Option<DVec2>,
 }
 
 /// A curve through points that is longer than so many times their polyline is marked.
@@ -32,6 +36,9 @@ const LONG: f64 = 1.1;
 
 /// The relative precision of lengths that are compared with that.
 const PRECISION: f64 = 1e-3;
+
+/// A pointer that moves by less has not moved, in points of the screen.
+const RESTING: f64 = 2.0;
 
 /// The samples of a segment among which the farthest from the polyline is found.
 const SAMPLES: usize = 8;
@@ -131,9 +138,21 @@ impl DrawTool {
     fn set(&mut self, vertex: DVec3, apart: f64) {
         let last = self.points.last();
         if last.is_none_or(|last| last.distance(vertex) > apart) {
-            self.discarded.clear();
-            self.points.push(vertex);
+            self.push(vertex);
         }
+    }
+
+    fn push(&mut self, vertex: DVec3) {
+        self.discarded.clear();
+        self.undone.clear();
+        self.points.push(vertex);
+    }
+
+    /// Where the pointer is in the view plane, unless it has not moved since a point was typed.
+    fn pointer(&self, context: &Context) -> Option<DVec2> {
+        let at = context.pointer?;
+        let moved = |rested: DVec2| context.viewport.to_screen(at).distance(rested) > RESTING;
+        self.rested.is_none_or(moved).then_some(at)
     }
 
     /// Where a click would put the next vertex: Shift keeps to multiples of 15°.
@@ -167,6 +186,7 @@ impl DrawTool {
     }
 
     fn finish(&mut self, periodic: bool, context: &Context) -> Vec<Effect> {
+        self.undone.clear();
         let points = std::mem::take(&mut self.points);
         let wanted = drawn_degree(context);
         match polygon(&points, periodic, context) {
@@ -237,6 +257,7 @@ impl Tool for DrawTool {
             Gesture::Key(Key::Escape) if self.points.is_empty() => vec![Effect::Finish],
             Gesture::Key(Key::Escape) => {
                 self.discarded = std::mem::take(&mut self.points);
+                self.undone.clear();
                 vec![Effect::Say(
                     "Drawing cancelled: Ctrl+Z brings it back".into(),
                 )]
@@ -261,8 +282,16 @@ impl Tool for DrawTool {
         if self.points.is_empty() {
             self.points = std::mem::take(&mut self.discarded);
         } else {
-            self.points.pop();
+            self.undone.extend(self.points.pop());
         }
+    }
+
+    fn redo_label(&self) -> Option<&'static str> {
+        (!self.undone.is_empty()).then_some("last point")
+    }
+
+    fn redo(&mut self) {
+        self.points.extend(self.undone.pop());
     }
 
     fn hint(&self, context: &Context) -> String {
@@ -308,7 +337,7 @@ impl Tool for DrawTool {
         let last = self.points.last().copied();
         let vertex = match context.typed {
             Some(typed) => typed.point(last, &context.drawing_plane()).ok(),
-            None => context.pointer.map(|at| self.vertex_at(at, context)),
+            None => self.pointer(context).map(|at| self.vertex_at(at, context)),
         };
         (last, vertex)
     }
@@ -326,11 +355,11 @@ impl Tool for DrawTool {
             ));
         }
         self.pressed = None;
-        self.discarded.clear();
+        self.rested = context.pointer.map(|at| context.viewport.to_screen(at));
         if self.points.len() >= 3 && self.points.first() == Some(&vertex) {
             return Ok(self.finish(true, context));
         }
-        self.points.push(vertex);
+        self.push(vertex);
         Ok(Vec::new())
     }
 
@@ -345,8 +374,8 @@ impl DrawTool {
     fn proposed(&self, context: &Context) -> Option<(Vec<DVec3>, bool)> {
         let mut points = self.points.clone();
         let closes = context.typed.is_none()
-            && context
-                .pointer
+            && self
+                .pointer(context)
                 .is_some_and(|at| self.closes(context.viewport.to_screen(at), context));
         if closes {
             return Some((points, true));

@@ -141,6 +141,14 @@ pub trait Tool: std::fmt::Debug + Send {
     /// Take back the last point of an unfinished drawing.
     fn undo(&mut self) {}
 
+    /// What redo sets again before it redoes a step of the document.
+    fn redo_label(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Set the point again that undo took back.
+    fn redo(&mut self) {}
+
     /// Which followers the wheel sets while something is dragged.
     fn wheel_turns(&self, _following: &Following) -> Option<Followers> {
         None
@@ -446,13 +454,6 @@ impl Context<'_> {
 /// Mark a place that something snapped to, with its name.
 pub(super) fn named_snap(at: DVec2, name: String) -> [Mark; 2] {
     [Mark::Snap(at), Mark::Name(at, name)]
-}
-
-/// Say beside a pointer of the view plane how the neighbours of what is dragged follow, if they do.
-pub(super) fn followers_label(pointer: DVec2, context: &Context) -> Option<Mark> {
-    let below = DVec2::new(0.0, -LABEL_BELOW * context.viewport.pixel());
-    let words = context.following.words()?;
-    Some(Mark::Label(pointer + below, words))
 }
 
 /// Say beside the pointer, below what is told of the place there, what a click would do.
