@@ -214,3 +214,28 @@ fn a_proof_counts_for_segments_that_did_not_change_meanwhile() {
     assert_eq!(analysis.segments_proved(), 0);
     assert_eq!(proved(&mut analysis), Features::new(&before));
 }
+
+#[test]
+fn a_straight_stretch_has_the_curvature_zero() {
+    for degree in [3, 5] {
+        let straight: Vec<(f64, f64)> = (0..9)
+            .map(|it| (0.1 * f64::from(it), 0.3 * f64::from(it)))
+            .collect();
+        let polygon = FloatPolygon::planar(degree, &straight).expect("a polygon");
+        let analysis = CurveAnalysis::new(Arc::new(Curve::new("line", polygon)));
+        let curvature = analysis.curvature().expect("a curvature");
+        assert_eq!([curvature.low, curvature.high], [0.0; 2]);
+        // Bends to one side keep theirs; the stretch before them is straight.
+        let bent = straight
+            .iter()
+            .copied()
+            .chain([(0.9, 3.5), (0.7, 4.0), (0.4, 4.2)]);
+        let polygon = FloatPolygon::planar(degree, &bent.collect::<Vec<_>>()).expect("a polygon");
+        let analysis = CurveAnalysis::new(Arc::new(Curve::new("bend", polygon)));
+        let curvature = analysis.curvature().expect("a curvature");
+        assert!(
+            curvature.low == 0.0 && curvature.high > 0.1,
+            "{curvature:?}"
+        );
+    }
+}

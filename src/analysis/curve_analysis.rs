@@ -17,6 +17,9 @@ use crate::geometry::features::{Features, SegmentFeatures};
 use crate::geometry::harmony::Harmony;
 use crate::geometry::{ClampedPolygon, FloatPolygon, Range as Span};
 
+/// A curvature that is less than this, by the size of the curve, is rounding of a straight one.
+pub const STRAIGHT: f64 = 1e-9;
+
 /// Hold the samples of a curve, its polygons' vertices, its features and its plots.
 #[derive(Debug)]
 pub struct CurveAnalysis {
@@ -163,7 +166,7 @@ impl CurveAnalysis {
     }
 
     /// The smallest and largest curvature: that of the samples, and once the features are proved that of the extrema
-    /// between them, to rounding. Signed if the curve is planar.
+    /// between them, to rounding. Signed if the curve is planar. What is less than 1e-9 by the size of the polygon is 0.
     pub fn curvature(&self) -> Option<Span> {
         let polygon = &self.curve.polygon;
         let extrema = self.known_features().into_iter();
@@ -174,7 +177,13 @@ impl CurveAnalysis {
             jet.curvature_of(self.is_planar())
         });
         let sampled = self.samples.curvature()?;
-        Some(values.fold(sampled, Span::with))
+        let Span { low, high } = values.fold(sampled, Span::with);
+        let straight = STRAIGHT / polygon.size();
+        let above = |value: f64| if value.abs() > straight { value } else { 0.0 };
+        Some(Span {
+            low: above(low),
+            high: above(high),
+        })
     }
 
     /// The features of all segments, if they are known.

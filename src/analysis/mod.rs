@@ -22,7 +22,7 @@ mod sampled_features;
 mod vertex_chain;
 
 pub use cache::AnalysisCache;
-pub use curve_analysis::CurveAnalysis;
+pub use curve_analysis::{CurveAnalysis, STRAIGHT};
 pub use curve_samples::{Block, CurveSamples, SampledCurve};
 pub use deviation::Deviation;
 pub use discrete_curvature::LengthCursor;

@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::analysis::STRAIGHT;
 use crate::document::{CurveId, Document};
 use crate::editor::view::comb::{CombSettings, CombsOf};
 use crate::editor::view::layers::Layer;
@@ -10,9 +11,6 @@ use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::FloatPolygon;
-
-/// A curve whose curvature is less than this, by its size, is straight to rounding.
-const STRAIGHT: f64 = 1e-9;
 
 /// The length of the comb's longest tooth after a reset, as a share of the longer side of the curve's box.
 const COMB_HEIGHT: f64 = 0.35;
