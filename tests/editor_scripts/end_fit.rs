@@ -1,7 +1,8 @@
 //! The end-fit tool.
 
-use batten::editor::{Command, EndFitAction, Input, Key, Layer, ToolKind};
+use batten::editor::{Command, EndFitAction, Input, Key, Layer, Mark, ToolKind};
 use batten::geometry::end_correction::EndOverlap;
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::{End, FloatPolygon};
 use glam::{DVec2, DVec3};
 
@@ -199,6 +200,37 @@ fn a_dragged_target_is_not_held_by_its_own_old_place() {
     let moved = script.end_fit().and_then(|report| report.target);
     let moved = moved.map(|target| target.point);
     assert_ne!(moved, Some(target.extend(0.0)));
+}
+
+#[test]
+fn a_turned_end_tells_what_it_adds() {
+    for (turn, adds) in [(0.01_f64, false), (30.0, true)] {
+        let mut script = Script::example("s-curve");
+        script.tool(ToolKind::EndFit);
+        let end = script.polygon().end_jet(End::Finish).point.truncate();
+        let centre = script.editor.view().viewport().to_screen(end);
+        let on_ring = |angle: f64| centre + 40.0 * DVec2::new(angle.cos(), -angle.sin());
+        let start = clear_of_handles(&mut script, &on_ring);
+        let [from, to] = [start, start + turn.to_radians()].map(on_ring);
+        let count = |script: &mut Script| {
+            let features = Features::proved(&script.polygon(), |_| true).expect("nobody cancels");
+            features.count(Feature::CurvatureExtremum) + features.count(Feature::Inflection)
+        };
+        let before = count(&mut script);
+        script.press(from);
+        script.move_to(to);
+        let marks = script.scene().marks.clone();
+        let is_told = |mark: &Mark| matches!(mark, Mark::Label(_, text) if text.contains("extrem"));
+        assert_eq!(marks.iter().any(is_told), adds, "{marks:?}");
+        script.release(to);
+        assert_eq!(count(&mut script) > before, adds);
+        let message = script
+            .editor
+            .message()
+            .map(|it| it.text.clone())
+            .unwrap_or_default();
+        assert_eq!(message.contains("by this drag"), adds, "{message}");
+    }
 }
 
 #[test]

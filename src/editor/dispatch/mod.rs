@@ -267,11 +267,13 @@ impl Editor {
                 }
                 Effect::Commit => {
                     let before = self.workspace.settled().clone();
+                    let added = self.hand.added_beyond_the_drag();
                     let analyses = &self.view.analyses;
                     self.hand.commit_kept(&mut self.workspace, analyses);
                     let documents = [&before, self.workspace.document()];
-                    let sharper = sharp_drag(documents).unwrap_or_default();
-                    let warning = with_lines(sharper, &followers(documents, &[]));
+                    let told = [added, sharp_drag(documents)];
+                    let told: Vec<String> = told.into_iter().flatten().collect();
+                    let warning = with_lines(told.join("\n"), &followers(documents, &[]));
                     if !warning.is_empty() {
                         self.message = Message::of(&Ok(Note::done(warning).warning()));
                     }

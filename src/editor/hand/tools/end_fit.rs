@@ -7,7 +7,7 @@ use super::end_fit_drags::{
 };
 use super::end_fit_subject::{Handle, Subject};
 use super::end_pick::{EndPick, pick_marks};
-use super::tool::{Context, Cursor, Effect, Tool, followers_label, named_snap};
+use super::tool::{Context, Cursor, Effect, Tool, named_snap, pointer_label};
 use crate::document::Edit;
 use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::Gesture;
@@ -156,16 +156,18 @@ impl Tool for EndFitTool {
             State::Body {
                 snapped: Some(place),
                 ..
-            } => named_snap(
-                *place,
-                format!("Target of the {}", context.settings.end_fit.end.name()),
-            )
-            .into(),
-            _ if self.follows(context) => {
-                let label = context.pointer.and_then(|at| followers_label(at, context));
-                label.into_iter().chain(self.snap_marks(context)).collect()
+            } => {
+                let name = format!("Target of the {}", context.settings.end_fit.end.name());
+                named_snap(*place, name)
+                    .into_iter()
+                    .chain(self.told(context))
+                    .collect()
             }
-            _ => self.snap_marks(context),
+            _ => self
+                .told(context)
+                .into_iter()
+                .chain(self.snap_marks(context))
+                .collect(),
         }
     }
 
@@ -195,6 +197,14 @@ impl EndFitTool {
     /// Whether the end follows the target that is dragged.
     fn follows(&self, context: &Context) -> bool {
         self.wheel_turns(&context.following).is_some()
+    }
+
+    /// Say beside the pointer how the end follows its target, and what the drag adds.
+    fn told(&self, context: &Context) -> Option<Mark> {
+        let follows = self.follows(context).then(|| context.following.words());
+        let lines = [follows.flatten(), context.added.map(str::to_owned)];
+        let lines: Vec<String> = lines.into_iter().flatten().collect();
+        pointer_label((!lines.is_empty()).then(|| lines.join("; ")), context)
     }
 
     /// The snap of a dragged target.
