@@ -36,7 +36,7 @@ pub fn empty_ui(context: &Context, canvas: Rect) {
     });
 }
 
-/// Warn that a planar drawing is seen at an angle, with the way back.
+/// Warn that a planar drawing is not seen from above, with the way back.
 pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
     let top = gizmo::name_place(canvas).map_or(canvas.top(), |name| name.bottom());
     let at = pos2(canvas.right() - 2.0 * STEP, top + STEP);
@@ -45,10 +45,10 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
         let tokens = Tokens::of(ui);
         let key = Command::View(NamedView::Xy).shortcut();
         let key = key.map(keyboard::shortcut_text).unwrap_or_default();
-        let text = RichText::new(format!("Orbited · {key}")).color(tokens.strong_text);
+        let text = RichText::new(format!("Not from above · {key}")).color(tokens.strong_text);
         let badge = Button::new(text).wrap_mode(TextWrapMode::Extend);
         let badge = badge.stroke(Stroke::new(1.0, tokens.accent));
-        let help = "The drawing is planar and seen at an angle: view it from above";
+        let help = "The drawing is planar: view it from above";
         ui.add(badge).on_hover_text(help).clicked()
     });
     if clicked.inner {
@@ -59,7 +59,7 @@ pub fn orbited_ui(context: &Context, canvas: Rect, commands: &mut Vec<Action>) {
 /// Say that the evolute is hidden because it would cover the canvas, and offer to show it.
 pub fn hidden_evolute_ui(context: &Context, canvas: Rect, editor: &mut Editor) {
     let top = gizmo::name_place(canvas).map_or(canvas.top(), |name| name.bottom());
-    // Below the badge of an orbited view.
+    // Below the badge of a view that is not from above.
     let at = pos2(canvas.right() - 2.0 * STEP, top + 2.0 * STEP + ROW);
     let clicked = widgets::overlay(context, "hidden evolute", (Align2::RIGHT_TOP, at), |ui| {
         let tokens = Tokens::of(ui);

@@ -60,7 +60,7 @@ fn a_message_about_a_deletion_undoes_it() {
 #[test]
 fn a_badge_leads_back_from_a_stray_turn_of_the_view() {
     let mut window = open_window();
-    assert!(window.query_by_label("Orbited · F3").is_none());
+    assert!(window.query_by_label("Not from above · F3").is_none());
     let canvas = window.state().canvas_rect().expect("the canvas was shown");
     let from = canvas.center();
     window.hover_at(from);
@@ -78,12 +78,12 @@ fn a_badge_leads_back_from_a_stray_turn_of_the_view() {
         window.state().editor().view().viewport().orientation,
         Orientation::XY
     );
-    click(&mut window, "Orbited · F3");
+    click(&mut window, "Not from above · F3");
     assert_eq!(
         window.state().editor().view().viewport().orientation,
         Orientation::XY
     );
-    assert!(window.query_by_label("Orbited · F3").is_none());
+    assert!(window.query_by_label("Not from above · F3").is_none());
 }
 
 #[test]
