@@ -104,6 +104,18 @@ pub(super) fn fault(found: &Bridged, parts: [&FloatPolygon; 2]) -> Option<String
     bent(found, most)
 }
 
+/// A bridge that is so many times as long as its gap goes a detour: half a circle is 1.6 times as long.
+const DETOUR: f64 = 2.0;
+
+/// Say that a bridge between the ends of a curve goes a detour, as one between ends that point away from each other does.
+pub(super) fn detour(found: &Bridged, curve: &FloatPolygon) -> Option<String> {
+    let is_wide = found.gap > SHORT * BezierPolygon::from_float(curve).size();
+    (is_wide && found.length > DETOUR * found.gap).then(|| {
+        let [length, gap] = [found.length, found.gap].map(|it| significant(it, 3));
+        format!("The bridge is {length} long, the gap {gap}: turn the ends towards each other")
+    })
+}
+
 /// Say that a bridge is bent so sharply that it is no use, however long the gap.
 pub(super) fn spike(found: &Bridged) -> Option<String> {
     bent(found, SHARPEST)

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::bridge::{BRIDGE, annotations, fault, figures, found, knuckle, remarks};
+use super::bridge::{BRIDGE, annotations, detour, fault, figures, found, knuckle, remarks};
 use super::crossing::new_crossing;
 use super::cutting::without_target;
 use super::editable::open;
@@ -117,6 +117,8 @@ fn bridged(input: &Operands, found: &Bridged) -> Result<Outcome, OperationError>
     let fault = fault(found, [&curve.polygon; 2]);
     let knuckle = knuckle(found).filter(|_| fault.is_none());
     outcome.warnings.extend(knuckle);
+    let detour = detour(found, &curve.polygon);
+    outcome.warnings.extend(detour.filter(|_| fault.is_none()));
     let crossing = new_crossing(&[&curve.polygon], &found.polygon);
     // There is nothing to go round.
     let straight = (smaller_side(&curve.polygon) <= STRAIGHT * curve.polygon.size())
