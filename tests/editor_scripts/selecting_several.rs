@@ -428,6 +428,8 @@ fn a_curve_that_crosses_itself_or_bends_sharply_when_it_closes_says_so() {
         (4.0, -6.0),
         (9.0, -6.0),
     ];
+    // Of an arch's polygon the tails lie far outside.
+    let arch = [(-40.0, -80.0), (20.0, 40.0), (80.0, 40.0), (140.0, -80.0)];
     // The closing leg of a flat arc makes two corners.
     let flat = (0..9).map(|index| {
         let angle = 0.1 * f64::from(index);
@@ -437,6 +439,7 @@ fn a_curve_that_crosses_itself_or_bends_sharply_when_it_closes_says_so() {
         (arc, None),
         (crossed.to_vec(), Some("crosses itself")),
         (flat.collect(), Some("A bend has the radius")),
+        (arch.to_vec(), Some("long, ")),
     ] {
         let curve = Curve::new(
             "curve",

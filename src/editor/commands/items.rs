@@ -4,7 +4,7 @@ use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
 use crate::editor::polygon_edits::periodicity;
 use crate::editor::reply::Refusal;
 use crate::editor::sharper::sharper_radius;
-use crate::geometry::{FloatPolygon, curve_crossing};
+use crate::geometry::{FloatPolygon, curve_crossing, significant};
 use crate::io::counted_items;
 
 /// The most names of items that a message lists.
@@ -27,6 +27,10 @@ pub(super) struct Change {
 /// What a curve that becomes periodic does, and what else there is.
 const PERIODIC: &str =
     "it closes round all vertices of its polygon. Close curve joins its ends instead";
+
+/// A curve that is so many times as long as before is told, by lengths of this relative precision.
+const LONGER: f64 = 2.0;
+const PRECISION: f64 = 1e-3;
 
 impl Change {
     /// Make the edit of each item. Those without one are left out; without any edit the first reason counts.
@@ -140,7 +144,7 @@ impl Change {
     }
 }
 
-/// Say that a curve which becomes periodic crosses itself, or has a bend much sharper than all before.
+/// Say that a curve which becomes periodic crosses itself, has a bend much sharper than all before, or is much longer.
 fn warning_of_ring(document: &Document, edit: &Edit) -> Option<String> {
     let Edit::Renumber { curve, polygon, .. } = edit else {
         return None;
@@ -150,8 +154,14 @@ fn warning_of_ring(document: &Document, edit: &Edit) -> Option<String> {
     if crosses(polygon) && !crosses(before) {
         return Some(format!("The curve crosses itself: {PERIODIC}"));
     }
-    let radius = sharper_radius(before, polygon)?;
-    Some(format!("A bend has the radius {radius} now: {PERIODIC}"))
+    if let Some(radius) = sharper_radius(before, polygon) {
+        return Some(format!("A bend has the radius {radius} now: {PERIODIC}"));
+    }
+    let [was, now] = [before, polygon].map(|it| it.arc_length(PRECISION));
+    (now > LONGER * was).then(|| {
+        let [was, now] = [was, now].map(|length| significant(length, 3));
+        format!("The curve is {now} long, {was} before: {PERIODIC}")
+    })
 }
 
 /// The items that are hidden, of those that were.
