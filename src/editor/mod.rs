@@ -5,7 +5,6 @@ mod commands;
 mod dispatch;
 mod hand;
 mod jobs;
-mod matched_curves;
 mod operating;
 mod polygon_edits;
 mod reply;
@@ -47,12 +46,12 @@ pub use workspace::{Interruption, PreviewId, Workspace};
 
 use crate::document::{CurveId, Document, Edit, quoted};
 use crate::io::examples::{EXAMPLES, FIRST};
+use crate::operations::{followers, matched, newly_matched, told_of_bent};
 use hand::gesture::Gesture;
 use hand::snap_name::snap_name;
 use jobs::Client;
 use jobs::foreseeing::Foreseeing;
 use jobs::patience::Patience;
-use matched_curves::{followers, matched, newly_matched};
 use operating::Operations;
 use reply::with_lines;
 use view::overlay::Overlay;
@@ -303,7 +302,7 @@ impl Editor {
         made?;
         let documents = [&before, self.document()];
         let (moves, bends) = matched(&newly, documents);
-        let follow = followers(documents, &newly);
+        let follow = told_of_bent(&followers(documents, &newly));
         let warns = bends || !follow.is_empty();
         let told = with_lines(
             with_lines(moves, &follow),
@@ -355,7 +354,7 @@ impl Editor {
             let before = self.workspace.settled().clone();
             self.hand
                 .commit_kept(&mut self.workspace, &self.view.analyses);
-            let follow = followers([&before, self.workspace.document()], &[]);
+            let follow = told_of_bent(&followers([&before, self.workspace.document()], &[]));
             if !follow.is_empty() {
                 self.message = Message::of(&Ok(Note::done(follow).warning()));
             }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::document::{Curve, CurveId, Edit, EditError, quoted};
 use crate::editor::polygon_edits::{deletion, replacement};
 use crate::geometry::expressions::LengthUnit;
-use crate::geometry::features::{Feature, Features};
 use crate::geometry::{FloatPolygon, PolygonError, rounded_up};
+use crate::operations::{changed_features, feature_change, feature_counts};
 
 /// The switch that inserting and deleting vertices follow.
 pub const KEEP_SHAPE: &str = "Keep shape";
@@ -53,7 +53,7 @@ impl SameShape {
             }));
         };
         let found = polygon.refitted(degree, segments).map_err(refused)?;
-        let features = [polygon, &found.polygon].map(counts);
+        let features = [polygon, &found.polygon].map(feature_counts);
         Ok(Self {
             polygon: found.polygon,
             deviation: found.deviation,
@@ -70,33 +70,11 @@ impl SameShape {
                 LengthUnit::behind(unit, rounded_up(bound))
             ),
         };
-        match change(self.features) {
+        match changed_features(self.features) {
             None => moved,
             Some(change) => format!("{moved}; {change}"),
         }
     }
-}
-
-/// Say which numbers of features differ between a polygon and another one.
-pub fn feature_change(before: &FloatPolygon, now: &FloatPolygon) -> Option<String> {
-    change([before, now].map(counts))
-}
-
-/// How many curvature extrema and inflections a curve has.
-fn counts(polygon: &FloatPolygon) -> [usize; 2] {
-    let features = Features::new(polygon);
-    [Feature::CurvatureExtremum, Feature::Inflection].map(|kind| features.count(kind))
-}
-
-/// Say which numbers of features change.
-fn change(features: [[usize; 2]; 2]) -> Option<String> {
-    let kinds = ["extrema", "inflections"].into_iter().enumerate();
-    let changed = kinds.filter_map(|(kind, name)| {
-        let [before, now] = features.map(|counts| counts[kind]);
-        (before != now).then(|| format!("{name} {before} before, {now} now"))
-    });
-    let changed: Vec<String> = changed.collect();
-    (!changed.is_empty()).then(|| changed.join(", "))
 }
 
 /// The edit that deletes vertices of a curve, by their numbers in rising order, and what it does to the curve, whose

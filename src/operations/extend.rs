@@ -1,5 +1,6 @@
 //! A longer curve: its end segment's polynomial continued.
 
+use super::cutting::without_target;
 use super::editable::open;
 use super::error::OperationError;
 use super::handle::{Handle, OnCurve, Sets};
@@ -10,7 +11,7 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use super::which_end::{END, end};
-use crate::document::ParameterSpan;
+use crate::document::{Edit, MatchPlace, ParameterSpan};
 use crate::geometry::{End, MAX_ADDED_SEGMENTS, Progress};
 
 const SEGMENTS: Parameter = Parameter {
@@ -34,7 +35,7 @@ pub static OPERATION: Operation = Operation {
 };
 
 fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, OperationError> {
-    let (_, curve) = input.curve()?;
+    let (id, curve) = input.curve()?;
     let end = end(values);
     let added = values.whole(&SEGMENTS);
     let polygon = curve.polygon.extended(end, added)?;
@@ -44,6 +45,15 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     let span = ParameterSpan::shifted(whole, shift as f64);
     let mut outcome = Outcome::renumbered(input, polygon.clone(), vec![span], Deviation::Exact)?;
     outcome.renumbered = end == End::Start;
+    // What follows the end stays where it is; the new end has neither target nor match.
+    let was = MatchPlace::Parameter(shift as f64 + end.parameter(&curve.polygon));
+    for edit in &mut outcome.edits {
+        if let Edit::Renumber { renumbering, .. } = edit {
+            *renumbering = renumbering.clone().with_end(end, was);
+        }
+    }
+    let released = without_target(input.document(), id, curve, end);
+    outcome.edits = released.chain(outcome.edits).collect();
     outcome.figures.push(segments);
     outcome
         .annotations

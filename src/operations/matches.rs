@@ -1,6 +1,6 @@
 //! What becomes of matches when an operation gives a curve's places other parameters.
 
-use crate::document::{CurveId, Document, Edit, EndMatch, MatchPlace, Renumbering, quoted};
+use crate::document::{CurveId, Document, Edit, EndMatch, MatchPlace, Renumbering};
 use crate::geometry::{End, counted};
 
 /// The edits that let ends matched to a curve follow places of another one instead. `place` gives the new place of
@@ -46,31 +46,4 @@ pub(super) fn cut_off(
 pub(super) fn without_match(document: &Document, curve: CurveId, end: End) -> Option<Edit> {
     let matched = document.match_of(curve, end);
     matched.map(|_| Edit::RemoveMatch { curve, end })
-}
-
-/// Say what became of matches by some edits: which are gone or no longer met, and which curves were
-/// corrected afterwards so that they are.
-pub(super) fn remarks(before: &Document, edits: &[Edit], after: &Document) -> Vec<String> {
-    let name = |id| after.curve(id).map(|curve| quoted(&curve.name));
-    let said = before.matches().filter_map(|matched| {
-        let (name, end) = (name(matched.curve)?, matched.end.name());
-        match after.match_of(matched.curve, matched.end) {
-            None => Some(format!("The {end} of {name} is no longer matched")),
-            Some(now) if before.meets(matched) && !after.meets(now) => {
-                Some(format!("The {end} of {name} does not meet its match now"))
-            }
-            Some(_) => None,
-        }
-    });
-    let corrected = edits.iter().filter_map(|edit| {
-        let (Edit::SetPolygon { curve, polygon } | Edit::Renumber { curve, polygon, .. }) = edit
-        else {
-            return None;
-        };
-        let now = after.curve(*curve)?;
-        let name = quoted(&now.name);
-        (now.polygon != *polygon)
-            .then(|| format!("{name} was corrected afterwards, so that it meets its match"))
-    });
-    said.chain(corrected).collect()
 }

@@ -4,7 +4,7 @@ use std::hash::{Hash, Hasher};
 
 use super::error::OperationError;
 use super::inputs::Inputs;
-use super::matches;
+use super::matched_curves;
 use super::operands::Operands;
 use super::outcome::Outcome;
 use super::parameter::Parameter;
@@ -122,8 +122,7 @@ impl Operation {
         self.check(input)?;
         let mut outcome = (self.run)(input, values, progress)?;
         let after = outcome.applied_to(input.document())?;
-        let remarks = matches::remarks(input.document(), &outcome.edits, &after);
-        outcome.remarks.extend(remarks);
+        matched_curves::tell(&mut outcome, input.document(), &after);
         let check = outcome.check(&after, progress);
         let check = check.ok_or(OperationError::Cancelled)?;
         outcome.reached = check.holds;

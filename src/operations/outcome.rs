@@ -77,6 +77,16 @@ impl Deviation {
         }
     }
 
+    /// The bound on a curve that is moved by up to a length afterwards.
+    pub(super) fn plus(self, length: f64) -> Self {
+        match self {
+            Self::Exact => Self::AtMost(length),
+            Self::AtMost(before) | Self::Measured(before) => Self::AtMost(before + length),
+            Self::FromPoints(before) => Self::FromPoints(before + length),
+            Self::Unmeasured => Self::Unmeasured,
+        }
+    }
+
     /// The larger of two.
     pub(super) fn or(self, other: Self) -> Self {
         match (self, other) {

@@ -315,7 +315,7 @@ fn a_follower_that_changes_its_character_is_named() {
             polygon: moved.expect("a polygon"),
         };
         let note = script.editor.apply("Move", vec![edit]).expect("a step");
-        let names = note.text.contains("“second” follows: ");
+        let names = note.text.contains("“second” follows, by up to ");
         assert_eq!(names, told, "{}", note.text);
         assert_eq!(
             note.text.contains("it leaves its plane"),

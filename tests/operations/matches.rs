@@ -2,7 +2,7 @@
 
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
 use batten::geometry::{Continuity, End, FloatPolygon, Progress};
-use batten::operations::{Operands, OperationError, Outcome, Value};
+use batten::operations::{Deviation, Operands, OperationError, Outcome, Value};
 
 use crate::runner::operation;
 
@@ -59,9 +59,9 @@ fn what_becomes_of_a_match_is_told() {
     let (document, [first, second]) = matched();
     let digits = [("digits", Value::Whole(1))];
     let rounded = run(&document, second, "round", &digits).expect("it can run");
-    let corrected = "“second” was corrected afterwards, so that it meets its match";
+    let corrected = "“second” was corrected afterwards, and moved by up to ";
     assert!(
-        rounded.remarks.iter().any(|it| it == corrected),
+        rounded.remarks.iter().any(|it| it.starts_with(corrected)),
         "{:?}",
         rounded.remarks
     );
@@ -87,4 +87,47 @@ fn what_becomes_of_a_match_is_told() {
         "{:?}",
         outcome.remarks
     );
+}
+
+#[test]
+fn what_follows_an_extended_end_stays() {
+    let (document, [first, second]) = matched();
+    let polygon = |document: &Document, id| document.curve(id).expect("a curve").polygon.clone();
+    let outcome = run(&document, first, "extend", &[]).expect("it can run");
+    let after = outcome.applied_to(&document).expect("an edit");
+    let [was, now] = [&document, &after].map(|it| polygon(it, second));
+    let off = was.deviation(&now).expect("the same numbers");
+    assert!(off <= 1e-13 * was.size(), "{off}");
+    let kept = after.match_of(second, End::Start).expect("a match");
+    assert_eq!(kept.place, MatchPlace::Parameter(5.0));
+    assert!(after.meets(kept));
+    assert_eq!(outcome.deviation, Deviation::Exact);
+
+    // An end that follows is free once it is extended.
+    let start = [("end", Value::Choice(0))];
+    let outcome = run(&document, second, "extend", &start).expect("it can run");
+    let after = outcome.applied_to(&document).expect("an edit");
+    assert!(after.match_of(second, End::Start).is_none());
+    let extended = polygon(&document, second)
+        .extended(End::Start, 1)
+        .expect("a polygon");
+    assert_eq!(polygon(&after, second), extended);
+    let gone = "The start of “second” is no longer matched";
+    assert!(
+        outcome.remarks.iter().any(|it| it == gone),
+        "{:?}",
+        outcome.remarks
+    );
+}
+
+#[test]
+fn a_curve_that_follows_an_operation_is_named() {
+    let (document, [first, _]) = matched();
+    let to = [("to", Value::Real(2.0))];
+    let trimmed = run(&document, first, "trim", &to).expect("it can run");
+    let told = trimmed.warnings.iter().chain(&trimmed.remarks);
+    let told: Vec<&String> = told
+        .filter(|it| it.starts_with("“second” follows, by up to "))
+        .collect();
+    assert_eq!(told.len(), 1, "{:?}", trimmed.warnings);
 }

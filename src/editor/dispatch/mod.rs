@@ -10,12 +10,12 @@ use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
 use crate::editor::hand::menu::MenuTarget;
 use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind, Tools};
-use crate::editor::matched_curves::followers;
 use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Message, Note, Refusal, told, with_lines};
 use crate::editor::sharper::sharp_drag;
 use crate::editor::view::Look;
 use crate::editor::workspace::Interruption;
+use crate::operations::{followers, told_of_bent};
 
 /// The subject of a requested context menu.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -273,7 +273,8 @@ impl Editor {
                     let documents = [&before, self.workspace.document()];
                     let told = [added, sharp_drag(documents)];
                     let told: Vec<String> = told.into_iter().flatten().collect();
-                    let warning = with_lines(told.join("\n"), &followers(documents, &[]));
+                    let warning =
+                        with_lines(told.join("\n"), &told_of_bent(&followers(documents, &[])));
                     if !warning.is_empty() {
                         self.message = Message::of(&Ok(Note::done(warning).warning()));
                     }

@@ -12,12 +12,13 @@ use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::hand::typed_point::{EntryError, TypedPoint};
 use crate::editor::polygon_edits::{continuation, inserted, insertion, replacement};
-use crate::editor::same_shape::{LastSameShape, SameShape, feature_change};
+use crate::editor::same_shape::{LastSameShape, SameShape};
 use crate::editor::view::hit::LegHit;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{End, FloatPolygon, PolygonError, rounded_up};
+use crate::operations::feature_change;
 
 /// Legs are found from this far, in screen points, when a vertex shall be inserted.
 const LEG_REACH: f64 = 24.0;

@@ -1,7 +1,8 @@
 //! What matches do to curves: to those that are matched anew, and to those that follow others.
 
+use super::feature_change::feature_change;
+use super::outcome::{Deviation, Outcome};
 use crate::document::{CurveId, Document, Edit, quoted};
-use crate::editor::same_shape::feature_change;
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::{FloatPolygon, Progress, largest_curvature, rounded_up, significant};
 
@@ -15,7 +16,7 @@ const SHARPER: f64 = 1.25;
 const COMPARED: usize = 400;
 
 /// The curves that edits match with others.
-pub(super) fn newly_matched(edits: &[Edit]) -> Vec<CurveId> {
+pub fn newly_matched(edits: &[Edit]) -> Vec<CurveId> {
     let matched = edits.iter().filter_map(|edit| match edit {
         Edit::SetMatch(matched) => Some(matched.curve),
         _ => None,
@@ -24,7 +25,7 @@ pub(super) fn newly_matched(edits: &[Edit]) -> Vec<CurveId> {
 }
 
 /// Say what new matches do to their curves, a line each, and whether that is more than a move.
-pub(super) fn matched(curves: &[CurveId], documents: [&Document; 2]) -> (String, bool) {
+pub fn matched(curves: &[CurveId], documents: [&Document; 2]) -> (String, bool) {
     let mut bends = false;
     let told = curves.iter().filter_map(|id| {
         let [before, after] = polygons(*id, documents)?;
@@ -47,8 +48,17 @@ pub(super) fn matched(curves: &[CurveId], documents: [&Document; 2]) -> (String,
     (told, bends)
 }
 
-/// Say which curves follow others in a step and change their features or bends, a line each.
-pub(super) fn followers(documents: [&Document; 2], matched: &[CurveId]) -> String {
+/// A curve that follows others in a step.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Follower {
+    /// Its name, and what becomes of it.
+    pub text: String,
+    /// Whether it does more than move: its features change, it bends more sharply, or it leaves its plane.
+    pub bends: bool,
+}
+
+/// Find the curves that follow others in a step and move by it, but for those that are matched anew.
+pub fn followers(documents: [&Document; 2], matched: &[CurveId]) -> Vec<Follower> {
     let [before, after] = documents;
     let has_changed = |id: CurveId| {
         before.curve(id) != after.curve(id) || before.reference(id) != after.reference(id)
@@ -57,16 +67,87 @@ pub(super) fn followers(documents: [&Document; 2], matched: &[CurveId]) -> Strin
         let mut own = after.matches().filter(|it| it.curve == *id);
         !matched.contains(id) && own.any(|it| has_changed(it.source))
     });
-    let told = following.filter_map(|(id, curve)| {
+    let found = following.filter_map(|(id, curve)| {
         let [before, after] = polygons(id, documents)?;
-        let changes = match stays(before, after) {
-            true => Vec::new(),
-            false => changes(before, after),
-        };
-        (!changes.is_empty())
-            .then(|| format!("{} follows: {}", quoted(&curve.name), changes.join("; ")))
+        if stays(before, after) {
+            return None;
+        }
+        let moved = moved(before, after)?;
+        let changes = changes(before, after);
+        let name = quoted(&curve.name);
+        let bends = !changes.is_empty();
+        let parts = std::iter::once(format!("{name} follows, by up to {moved}"));
+        let parts: Vec<String> = parts.chain(changes).collect();
+        Some(Follower {
+            text: parts.join("; "),
+            bends,
+        })
     });
-    told.collect::<Vec<_>>().join("\n")
+    found.collect()
+}
+
+/// Say which followers do more than move, a line each.
+pub fn told_of_bent(followers: &[Follower]) -> String {
+    let bent = followers.iter().filter(|it| it.bends);
+    let lines: Vec<&str> = bent.map(|it| it.text.as_str()).collect();
+    lines.join("\n")
+}
+
+/// Tell what some edits make of matches and of curves that follow others: which matches are gone or no longer met,
+/// how far a curve that they change was corrected afterwards so that it meets its match, and which others follow. That
+/// a curve bends or gets other features so is a warning.
+pub(super) fn tell(outcome: &mut Outcome, before: &Document, after: &Document) {
+    outcome.remarks.extend(lost(before, after));
+    let changed: Vec<(CurveId, FloatPolygon)> = outcome.edits.iter().filter_map(changed).collect();
+    for (id, polygon) in &changed {
+        let Some(now) = after.curve(*id) else {
+            continue;
+        };
+        if now.polygon == *polygon {
+            continue;
+        }
+        let corrected = polygon.deviation(&now.polygon);
+        let deviation = outcome.deviation;
+        outcome.deviation = corrected.map_or(Deviation::Unmeasured, |by| deviation.plus(by));
+        let moved = moved(polygon, &now.polygon).filter(|_| !stays(polygon, &now.polygon));
+        let by = moved.map_or_else(String::new, |moved| format!(", and moved by up to {moved}"));
+        let name = quoted(&now.name);
+        let text = format!("{name} was corrected afterwards{by}, so that it meets its match");
+        outcome.remarks.push(text);
+    }
+    let changed: Vec<CurveId> = changed.iter().map(|(id, _)| *id).collect();
+    for follower in followers([before, after], &changed) {
+        match follower.bends {
+            true => outcome.warnings.push(follower.text),
+            false => outcome.remarks.push(follower.text),
+        }
+    }
+}
+
+/// The polygon that an edit gives a curve.
+fn changed(edit: &Edit) -> Option<(CurveId, FloatPolygon)> {
+    match edit {
+        Edit::SetPolygon { curve, polygon } | Edit::Renumber { curve, polygon, .. } => {
+            Some((*curve, polygon.clone()))
+        }
+        _ => None,
+    }
+}
+
+/// Say which matches are gone, and which are no longer met.
+fn lost(before: &Document, after: &Document) -> Vec<String> {
+    let said = before.matches().filter_map(|matched| {
+        let name = quoted(&after.curve(matched.curve)?.name);
+        let end = matched.end.name();
+        match after.match_of(matched.curve, matched.end) {
+            None => Some(format!("The {end} of {name} is no longer matched")),
+            Some(now) if before.meets(matched) && !after.meets(now) => {
+                Some(format!("The {end} of {name} does not meet its match now"))
+            }
+            Some(_) => None,
+        }
+    });
+    said.collect()
 }
 
 /// A curve's polygons before and after a step, if it has both.
