@@ -611,3 +611,40 @@ fn a_source_is_renamed_recoloured_hidden_and_locked_without_a_correction() {
         assert_ne!(polygon(&edited.expect("an edit"), 1), before, "{name}");
     }
 }
+
+/// A vertex that is dragged at a matched end goes where it is dragged, and the others meet the match by moves that are
+/// not much larger; if they cannot, all move.
+#[test]
+fn a_vertex_at_a_matched_end_goes_where_it_is_dragged() {
+    let (mut tries, mut obeyed) = (0, 0);
+    for (name, document, matched) in cases() {
+        let document = document
+            .edited([Edit::SetMatch(matched)])
+            .expect("it can be matched");
+        let before = polygon(&document, 1);
+        for index in before.terminal_vertices(matched.end) {
+            let by = 0.01 * before.size() * DVec3::new(0.6, 0.8, 0.0);
+            let moved = |share: f64| {
+                let moves = vec![(index, before.vertex(index) + share * by)];
+                let curve = matched.curve;
+                document
+                    .edited([Edit::MoveVertices { curve, moves }])
+                    .expect("a move")
+            };
+            let whole = moved(1.0);
+            let now = polygon(&whole, 1);
+            if !whole.meets(&matched) {
+                continue;
+            }
+            tries += 1;
+            let largest = now.vertices().iter().zip(before.vertices());
+            let largest = largest.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+            if now.vertex(index) == before.vertex(index) + by {
+                obeyed += 1;
+                assert!(largest <= 5.0 * by.length(), "{name}, {index}: {largest}");
+            }
+        }
+    }
+    println!("{obeyed} of {tries}");
+    assert!(obeyed * 10 >= tries * 9, "{obeyed} of {tries}");
+}

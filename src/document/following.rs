@@ -20,6 +20,9 @@ const ROUNDING: f64 = 1e-12;
 /// What may be left of a match that counts as met, in units of the end's size.
 const MET: f64 = 1e-9;
 
+/// How many times as far as what is dragged other vertices may move so that a match is met.
+const FARTHER: f64 = 4.0;
+
 impl EndMatch {
     /// The target that the match sets now; `None` if one of the curves is gone or does not have the place.
     pub fn target(&self, document: &Document) -> Option<EndTarget> {
@@ -155,7 +158,8 @@ impl Document {
 
     /// Let matched ends follow what has changed: the other end of a curve keeps its point and
     /// direction, and locked vertices stay. Locked and hidden curves follow once they no longer are.
-    /// Where a match cannot be met the curve stays as it is, and its target tells what is missing;
+    /// Vertices of its own that the step has moved stay too, where the others meet the match by moves that are not much
+    /// larger. Where a match cannot be met the curve stays as it is, and its target tells what is missing;
     /// for the curves in `hasty` that is not tried long.
     pub(super) fn follow(&mut self, before: &Self, hasty: &BTreeSet<CurveId>) {
         let possible = |matched: &EndMatch| matched.target(self).is_some();
@@ -175,7 +179,8 @@ impl Document {
                 } else {
                     correct_jointly
                 };
-                self.correct(curve, correct);
+                let dragged = Dragged::between(before.curve(curve), self.curve(curve));
+                self.correct(curve, dragged.as_ref(), correct);
             }
         }
     }
@@ -220,7 +225,7 @@ impl Document {
     }
 
     /// Give the matched ends of a curve their targets, and bring them there.
-    fn correct(&mut self, id: CurveId, correct: Corrector) {
+    fn correct(&mut self, id: CurveId, dragged: Option<&Dragged>, correct: Corrector) {
         let Some(curve) = self.curve(id).filter(|curve| curve.visible) else {
             return;
         };
@@ -234,7 +239,7 @@ impl Document {
             }
         }
         if !curve.locked
-            && let Some(polygon) = met(curve, &matched, correct)
+            && let Some(polygon) = met(curve, &matched, dragged, correct)
         {
             corrected.polygon = polygon;
         }
@@ -252,27 +257,81 @@ fn is_met(polygon: &FloatPolygon, end: End, target: &EndTarget, tolerance: f64) 
     EndDifference::between(polygon, end, target).residual(size) <= tolerance * size
 }
 
+/// Vertices that a step has put somewhere else.
+struct Dragged {
+    vertices: Vec<usize>,
+    /// Their largest move.
+    by: f64,
+}
+
+impl Dragged {
+    /// The vertices that differ, unless all or none do.
+    fn between(before: Option<&Arc<Curve>>, now: Option<&Arc<Curve>>) -> Option<Self> {
+        let [before, now] = [&before?.polygon, &now?.polygon];
+        let vertices = now.moved_vertices(before);
+        let by = largest_move(before, now);
+        let some = !vertices.is_empty() && vertices.len() < now.vertices().len();
+        some.then_some(Self { vertices, by })
+    }
+
+    /// Whether the vertices that an end depends on can meet what is asked of it without these: a point, a direction, a
+    /// curvature and its slope take one vertex each.
+    fn leaves_room(&self, polygon: &FloatPolygon, (end, target): &(End, EndTarget)) -> bool {
+        let free = polygon.terminal_vertices(*end);
+        let free = free.filter(|index| !self.vertices.contains(index)).count();
+        let asked = [
+            target.direction.is_some(),
+            target.curvature.is_some(),
+            target.slope.is_some(),
+        ];
+        free > asked.iter().filter(|it| **it).count()
+    }
+
+    /// Whether the other vertices do not move much farther.
+    fn rules(&self, dragged: &FloatPolygon, corrected: &FloatPolygon) -> bool {
+        largest_move(dragged, corrected) <= FARTHER * self.by
+    }
+}
+
+fn largest_move(before: &FloatPolygon, now: &FloatPolygon) -> f64 {
+    let pairs = before.vertices().iter().zip(now.vertices());
+    pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
 /// The polygon whose ends meet their targets; `None` if they do already, or cannot.
-fn met(curve: &Curve, matched: &[(End, EndTarget)], correct: Corrector) -> Option<FloatPolygon> {
+fn met(
+    curve: &Curve,
+    matched: &[(End, EndTarget)],
+    dragged: Option<&Dragged>,
+    correct: Corrector,
+) -> Option<FloatPolygon> {
     let polygon = &curve.polygon;
     let is_missing = |(end, target): &(End, EndTarget)| !is_met(polygon, *end, target, ROUNDING);
     if !matched.iter().any(is_missing) {
         return None;
     }
-    let locked: Vec<usize> = curve.locked_vertices.iter().collect();
-    let corrected = if has_ends_apart(polygon) {
-        let mut ends = matched.iter();
-        let one = |polygon: FloatPolygon, (end, target): &(End, EndTarget)| {
-            correct_near_end(&polygon, *end, target, &locked, correct).ok()
-        };
-        ends.try_fold(polygon.clone(), one)?
-    } else {
+    let corrected = |held: &[usize]| {
+        if has_ends_apart(polygon) {
+            let mut ends = matched.iter();
+            let one = |polygon: FloatPolygon, (end, target): &(End, EndTarget)| {
+                correct_near_end(&polygon, *end, target, held, correct).ok()
+            };
+            return ends.try_fold(polygon.clone(), one);
+        }
         let least = Disturbance::Differences(1);
         let targets = with_kept_ends(polygon, matched);
-        correct(polygon, &targets, least, &locked, &Progress::default())
-            .ok()?
-            .polygon
+        let corrected = correct(polygon, &targets, least, held, &Progress::default());
+        corrected.ok().map(|corrected| corrected.polygon)
     };
+    let locked: Vec<usize> = curve.locked_vertices.iter().collect();
+    let obeying = dragged
+        .filter(|dragged| matched.iter().all(|end| dragged.leaves_room(polygon, end)))
+        .and_then(|dragged| {
+            let held = locked.iter().chain(&dragged.vertices);
+            let held: Vec<usize> = held.copied().collect();
+            corrected(&held).filter(|found| dragged.rules(polygon, found))
+        });
+    let corrected = obeying.or_else(|| corrected(&locked))?;
     curve.check_held(&corrected).ok()?;
     Some(corrected)
 }

@@ -71,6 +71,17 @@ impl FloatPolygon {
         numbers(self) == numbers(other)
     }
 
+    /// The vertices that are elsewhere than in another polygon; none where numbers or weights differ, which cannot be
+    /// compared.
+    pub fn moved_vertices(&self, before: &Self) -> Vec<usize> {
+        if !self.has_numbers_of(before) || self.weights() != before.weights() {
+            return Vec::new();
+        }
+        let pairs = before.vertices().iter().zip(self.vertices()).enumerate();
+        let moved = pairs.filter(|(_, (before, now))| before != now);
+        moved.map(|(index, _)| index).collect()
+    }
+
     /// The number of segments L, which is also the end of the parameter's domain \[0, L\].
     pub fn segments(&self) -> usize {
         if self.periodic {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::document::{Curve, CurveId, Document, quoted};
-use crate::geometry::FloatPolygon;
+use crate::editor::selection::Selection;
 use crate::geometry::features::SegmentFeatures;
 use crate::geometry::vertex_moves::MoveProver;
 
@@ -56,7 +56,7 @@ impl KeptCurves {
             let Some(then) = before.curve(id).filter(|then| !Arc::ptr_eq(then, now)) else {
                 continue;
             };
-            let moved = moved_vertices(&then.polygon, &now.polygon);
+            let moved = now.polygon.moved_vertices(&then.polygon);
             if moved.is_empty() {
                 continue;
             }
@@ -132,18 +132,19 @@ pub(super) fn moves_whole(before: &Document, after: &Document) -> bool {
     curves.any(|(id, now)| {
         let then = before.curve(id).filter(|then| !Arc::ptr_eq(then, now));
         then.is_some_and(|then| {
-            let moved = moved_vertices(&then.polygon, &now.polygon);
+            let moved = now.polygon.moved_vertices(&then.polygon);
             moved.len() == now.polygon.vertices().len()
         })
     })
 }
 
-/// The vertices that are elsewhere; none for a polygon of another kind, which cannot be compared.
-fn moved_vertices(before: &FloatPolygon, after: &FloatPolygon) -> Vec<usize> {
-    if !before.has_numbers_of(after) || before.weights() != after.weights() {
-        return Vec::new();
-    }
-    let pairs = before.vertices().iter().zip(after.vertices()).enumerate();
-    let moved = pairs.filter(|(_, (before, after))| before != after);
-    moved.map(|(index, _)| index).collect()
+/// Whether a vertex is elsewhere that is not among those of a selection.
+pub(super) fn moves_others(before: &Document, after: &Document, selection: &Selection) -> bool {
+    let mut curves = after.curves();
+    curves.any(|(id, now)| {
+        let then = before.curve(id).filter(|then| !Arc::ptr_eq(then, now));
+        let moved = then.map(|then| now.polygon.moved_vertices(&then.polygon));
+        let mut moved = moved.into_iter().flatten();
+        moved.any(|index| !selection.contains((id, index)))
+    })
 }
