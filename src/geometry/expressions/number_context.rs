@@ -44,8 +44,8 @@ impl NumberContext {
     /// where a comma directly in a function's brackets separates its arguments (`max(1,2)`); in a unit
     /// (`12mm`, `1/2in`, `30deg`, `0.5rad`), which is converted; or relative to the number before (`+=2`,
     /// `*=1.1`). Numbers without a unit are in the document's unit, angles in degrees; sines and the like of
-    /// numbers without a unit are those of radians. A curvature can be given by its radius: `R1652`, `r=1652`,
-    /// `-R 12cm` for a right turn.
+    /// numbers without a unit are those of radians. A curvature can be given by its radius: `R1652` or `r=1652` to
+    /// the side of the number before, `-R 12cm` for a right turn, `+R 12cm` for a left one.
     ///
     /// The result is finite: a length in the document's unit, an angle in degrees, anything else as it is.
     ///
@@ -56,7 +56,10 @@ impl NumberContext {
         let begun = text.get(start..).unwrap_or_default();
         let change = CHANGES.iter().find(|(sign, _)| begun.starts_with(sign));
         let Some((sign, change)) = change else {
-            return self.number(text, self.quantity);
+            let value = self.number(text, self.quantity)?;
+            // A radius without a sign bends to the side of the number before.
+            let turns = value > 0.0 && self.before < Some(0.0) && self.is_unsigned_radius(text);
+            return Ok(if turns { -value } else { value });
         };
         let before = self.before.ok_or_else(|| {
             let error = ExpressionError::NothingBefore { operator: sign };
@@ -100,6 +103,11 @@ impl NumberContext {
             ExpressionError::UnknownUnit { name, .. } if last(name) && Unit::begins(name) => true,
             _ => self.read(&format!("{text}0")).is_ok(),
         }
+    }
+
+    fn is_unsigned_radius(&self, text: &str) -> bool {
+        let is_radius = self.quantity == Quantity::Curvature && split_radius(text).is_some();
+        is_radius && !text.trim_start().starts_with(['+', '-', '−'])
     }
 
     fn number(&self, text: &str, quantity: Quantity) -> Result<f64, ExpressionMistake> {
@@ -149,7 +157,8 @@ impl NumberContext {
 fn split_radius(text: &str) -> Option<(&str, f64, &str)> {
     let unsigned = text.trim_start();
     let negative = unsigned.strip_prefix(['-', '−']);
-    let named = negative.unwrap_or(unsigned).trim_start();
+    let positive = unsigned.strip_prefix('+');
+    let named = negative.or(positive).unwrap_or(unsigned).trim_start();
     let rest = named.strip_prefix(['R', 'r'])?.trim_start();
     let radius = rest.strip_prefix('=').unwrap_or(rest);
     if radius.starts_with(char::is_alphabetic) {
@@ -266,6 +275,19 @@ mod tests {
             ("+=R2", 10.5),
         ];
         assert_read(Quantity::Curvature, &radii);
+        let right = NumberContext {
+            before: Some(-0.1),
+            ..context(Quantity::Curvature)
+        };
+        for (text, value) in [
+            ("R8", -0.125),
+            ("r=8", -0.125),
+            ("+R8", 0.125),
+            ("-R8", -0.125),
+        ] {
+            assert_eq!(right.read(text), Ok(value), "{text}");
+        }
+        assert_eq!(right.read("0.125"), Ok(0.125));
         let parameters = [("180deg", std::f64::consts::PI), ("2", 2.0)];
         assert_read(Quantity::Parameter, &parameters);
     }
