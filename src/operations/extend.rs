@@ -11,7 +11,7 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use super::which_end::{END, end};
-use crate::document::{Edit, MatchPlace, ParameterSpan};
+use crate::document::{Edit, MatchPlace, ParameterSpan, quoted};
 use crate::geometry::{End, MAX_ADDED_SEGMENTS, Progress};
 
 const SEGMENTS: Parameter = Parameter {
@@ -52,6 +52,15 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
             *renumbering = renumbering.clone().with_end(end, was);
         }
     }
+    let matches = input.document().matches();
+    let stays = matches.filter(|it| it.source == id && it.place == MatchPlace::End(end));
+    outcome.remarks.extend(stays.filter_map(|it| {
+        let name = quoted(input.document().name(it.curve)?);
+        Some(format!(
+            "{name} follows the place where the {} was",
+            end.name()
+        ))
+    }));
     let released = without_target(input.document(), id, curve, end);
     outcome.edits = released.chain(outcome.edits).collect();
     outcome.figures.push(segments);

@@ -139,7 +139,12 @@ fn lost(before: &Document, after: &Document) -> Vec<String> {
     let said = before.matches().filter_map(|matched| {
         let name = quoted(&after.curve(matched.curve)?.name);
         let end = matched.end.name();
+        // A curve that is reversed follows with its other end.
+        let other = matched.end.other();
+        let is_turned = before.match_of(matched.curve, other).is_none()
+            && after.match_of(matched.curve, other).is_some();
         match after.match_of(matched.curve, matched.end) {
+            None if is_turned => None,
             None => Some(format!("The {end} of {name} is no longer matched")),
             Some(now) if before.meets(matched) && !after.meets(now) => {
                 Some(format!("The {end} of {name} does not meet its match now"))

@@ -102,6 +102,12 @@ fn what_follows_an_extended_end_stays() {
     assert_eq!(kept.place, MatchPlace::Parameter(5.0));
     assert!(after.meets(kept));
     assert_eq!(outcome.deviation, Deviation::Exact);
+    let told = "“second” follows the place where the end was";
+    assert!(
+        outcome.remarks.iter().any(|it| it == told),
+        "{:?}",
+        outcome.remarks
+    );
 
     // An end that follows is free once it is extended.
     let start = [("end", Value::Choice(0))];
@@ -130,4 +136,18 @@ fn a_curve_that_follows_an_operation_is_named() {
         .filter(|it| it.starts_with("“second” follows, by up to "))
         .collect();
     assert_eq!(told.len(), 1, "{:?}", trimmed.warnings);
+}
+
+#[test]
+fn a_reversed_curve_follows_with_its_other_end() {
+    let (document, [_, second]) = matched();
+    let outcome = run(&document, second, "reverse", &[]).expect("it can run");
+    let after = outcome.applied_to(&document).expect("an edit");
+    let turned = after.match_of(second, End::Finish).expect("a match");
+    assert!(after.meets(turned));
+    assert!(
+        !outcome.remarks.iter().any(|it| it.contains("matched")),
+        "{:?}",
+        outcome.remarks
+    );
 }
