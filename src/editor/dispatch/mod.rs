@@ -10,6 +10,7 @@ use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
 use crate::editor::hand::menu::MenuTarget;
 use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind, Tools};
+use crate::editor::left_target::left_target;
 use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Message, Note, Refusal, told, with_lines};
 use crate::editor::sharper::sharp_drag;
@@ -267,11 +268,15 @@ impl Editor {
                 }
                 Effect::Commit => {
                     let before = self.workspace.settled().clone();
-                    let added = self.hand.added_beyond_the_drag();
+                    let added = self.hand.added_beyond_the_drag(&self.workspace);
                     let analyses = &self.view.analyses;
                     self.hand.commit_kept(&mut self.workspace, analyses);
                     let documents = [&before, self.workspace.document()];
-                    let told = [added, sharp_drag(documents)];
+                    let fits = self.hand.tool() == ToolKind::EndFit;
+                    let dragged = self.hand.selection.active().filter(|_| fits);
+                    let other = self.hand.settings.end_fit.end.other();
+                    let left = dragged.and_then(|id| left_target(documents, id, other));
+                    let told = [added, sharp_drag(documents), left];
                     let told: Vec<String> = told.into_iter().flatten().collect();
                     let warning =
                         with_lines(told.join("\n"), &told_of_bent(&followers(documents, &[])));

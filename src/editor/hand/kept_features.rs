@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use super::hand::Hand;
 use super::keeping::Keeping;
-use super::kept_curves::moves_whole;
-use super::tools::ToolKind;
+use super::kept_curves::{moves_others, moves_whole};
 use crate::analysis::AnalysisCache;
 use crate::document::{Curve, CurveId, Edit};
 use crate::editor::reply::Refusal;
@@ -46,12 +45,13 @@ impl Hand {
         self.keeping.find_added(after, settled, &known);
     }
 
-    /// Tell the features that a drag adds which moves more than what is dragged: neighbours that follow, or the terminal
-    /// vertices of an end.
-    pub(in crate::editor) fn added_beyond_the_drag(&self) -> Option<String> {
-        let moves_more = self.tool() == ToolKind::EndFit || self.following.follow.is_some();
-        let added = self.keeping.added().filter(|_| moves_more)?;
-        Some(format!("{added} by this drag: with K drags add none"))
+    /// Tell the features that a drag adds which moves more vertices than those that are dragged: neighbours that follow a
+    /// point, or the terminal vertices of an end.
+    pub(in crate::editor) fn added_beyond_the_drag(&self, workspace: &Workspace) -> Option<String> {
+        let added = self.keeping.added()?;
+        let (before, now) = (workspace.settled(), workspace.document());
+        moves_others(before, now, &self.selection)
+            .then(|| format!("{added} by this drag: with K drags add none"))
     }
 
     /// End a drag, or the preview of a field, and keep it as one step. Where features are kept, a match that takes
