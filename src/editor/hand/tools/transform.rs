@@ -85,6 +85,9 @@ impl TransformTool {
             self.state = State::MovingPivot { before };
             return Vec::new();
         }
+        if context.selection.vertices().len() == 1 && context.settings.pivot.is_none() {
+            return vec![Effect::Say(ONE_VERTEX.into())];
+        }
         let label = taken.label_of(self.resting);
         let origin = context.model(place);
         let axis = self.sides(pivot, &taken, context).into_iter();
@@ -134,6 +137,10 @@ impl TransformTool {
         (Transformation::Stretch(axis, factor), label)
     }
 }
+
+/// What is said of one vertex that would be turned or scaled about itself.
+const ONE_VERTEX: &str =
+    "One vertex stays where its pivot is: select more, move the pivot, or Esc for the whole curve";
 
 /// The pivot: where it was put, or where it was for the same selection, or the middle of what would be transformed, if
 /// there is anything.
