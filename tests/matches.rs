@@ -624,14 +624,11 @@ fn a_vertex_at_a_matched_end_goes_where_it_is_dragged() {
         let before = polygon(&document, 1);
         for index in before.terminal_vertices(matched.end) {
             let by = 0.01 * before.size() * DVec3::new(0.6, 0.8, 0.0);
-            let moved = |share: f64| {
-                let moves = vec![(index, before.vertex(index) + share * by)];
-                let curve = matched.curve;
-                document
-                    .edited([Edit::MoveVertices { curve, moves }])
-                    .expect("a move")
+            let edit = Edit::MoveVertices {
+                curve: matched.curve,
+                moves: vec![(index, before.vertex(index) + by)],
             };
-            let whole = moved(1.0);
+            let whole = document.edited([edit]).expect("a move");
             let now = polygon(&whole, 1);
             if !whole.meets(&matched) {
                 continue;
