@@ -3,13 +3,21 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::document::{Curve, CurveId, Document, quoted};
 use crate::editor::selection::Selection;
+use crate::geometry::FloatPolygon;
 use crate::geometry::features::SegmentFeatures;
 use crate::geometry::vertex_moves::MoveProver;
 
 /// The most segments of a curve that are proved anew in every frame.
 const MOST_SEGMENTS: usize = 256;
+
+/// Distances that differ by less than this share of the polygon's length are the same; those of vertices up to so many steps apart
+/// make a polygon rigid.
+const SIMILAR: f64 = 1e-9;
+const RIGID: usize = 3;
 
 /// The features of a curve's segments, if they are proved already.
 pub(super) type KnownFeatures<'a> =
@@ -126,15 +134,31 @@ impl Kept {
     }
 }
 
-/// Whether every vertex of a curve moved.
+/// Whether a curve moved as a whole, without a change of shape.
 pub(super) fn moves_whole(before: &Document, after: &Document) -> bool {
     let mut curves = after.curves();
     curves.any(|(id, now)| {
         let then = before.curve(id).filter(|then| !Arc::ptr_eq(then, now));
         then.is_some_and(|then| {
             let moved = now.polygon.moved_vertices(&then.polygon);
-            moved.len() == now.polygon.vertices().len()
+            moved.len() == now.polygon.vertices().len() && is_similar(&then.polygon, &now.polygon)
         })
+    })
+}
+
+/// Whether distances between near vertices all have the same share of the length of their polygon.
+fn is_similar(before: &FloatPolygon, now: &FloatPolygon) -> bool {
+    let [old, new] = [before, now].map(|it| it.vertices());
+    let legs = |vertices: &[DVec3], step: usize| -> Vec<f64> {
+        let pairs = vertices.iter().zip(vertices.iter().skip(step));
+        pairs.map(|(a, b)| a.distance(*b)).collect()
+    };
+    let [old_length, new_length] = [old, new].map(|it| legs(it, 1).iter().sum::<f64>());
+    let rounding = SIMILAR * old_length * new_length;
+    (1..=RIGID).all(|step| {
+        let [old, new] = [old, new].map(|it| legs(it, step));
+        let mut pairs = old.iter().zip(&new);
+        pairs.all(|(old, new)| (new * old_length - old * new_length).abs() <= rounding)
     })
 }
 
