@@ -337,9 +337,13 @@ impl Joining<'_> {
         };
         match merged {
             Ok((mut merged, possible)) if possible <= tolerance => {
-                let moved = significant(possible, 3);
+                let moved = rounded_up(possible);
+                let other = match bridged.requirements.is_empty() {
+                    true => "Bridge keeps both",
+                    false => "Chain keeps the first",
+                };
                 merged.remarks.push(format!(
-                    "Merged: no plain bridge fits the gap. The curves move by {moved}; Bridge keeps both"
+                    "Merged: no plain bridge fits the gap. The curves move by at most {moved}; {other}"
                 ));
                 Ok(merged)
             }
