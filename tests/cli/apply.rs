@@ -668,7 +668,8 @@ fn matched_curves_follow_and_locked_vertices_stay() {
         report["remarks"],
         json!([
             "Curvature extrema: 2 before, 4 now",
-            "1 locked vertex keeps the coordinates"
+            "1 locked vertex keeps the coordinates",
+            "“second” follows, by up to 0.27"
         ])
     );
     let text = fs::read_to_string(folder.path("out.batten")).unwrap();
