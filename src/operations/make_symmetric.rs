@@ -118,8 +118,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let crossings = crossings(polygon, &mirror, tolerance);
     let last = polygon.segments() as f64;
     let (half, span) = match (keep, &crossings[..]) {
-        (None, [_, ..]) => return nearest(input, polygon, &mirror),
-        (None, []) if polygon.is_periodic() => return nearest(input, polygon, &mirror),
+        (None, [_, ..]) => return nearest(input, polygon, &mirror, progress),
+        (None, []) if polygon.is_periodic() => return nearest(input, polygon, &mirror, progress),
         (Some(Half::First), [first, second]) if polygon.is_periodic() => {
             (Half::First, [*first, *second])
         }
@@ -139,6 +139,7 @@ fn nearest(
     input: &Operands,
     polygon: &FloatPolygon,
     mirror: &Mirror,
+    progress: &Progress,
 ) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let symmetric = polygon.symmetrised(mirror)?;
@@ -148,7 +149,9 @@ fn nearest(
         return Ok(outcome);
     }
     curve.check_held(&symmetric)?;
-    let deviation = polygon.deviation(&symmetric)?;
+    // A bound by the vertices would count points that slide along the curve.
+    let deviation = SideDeviation::both_ways([polygon, &symmetric], progress);
+    let deviation = deviation.map_err(|_| OperationError::Cancelled)?;
     let size = BezierPolygon::from_float(polygon).size();
     let is_far = deviation > FAR * size;
     let is_flat = is_far && smaller_side(&symmetric) < FLAT * smaller_side(polygon);
@@ -157,7 +160,7 @@ fn nearest(
         true => "its ends meet: close it first",
         false => "its halves differ much: keep one of them",
     };
-    let mut outcome = Outcome::reshaped(id, symmetric, Deviation::AtMost(deviation));
+    let mut outcome = Outcome::reshaped(id, symmetric, Deviation::Measured(deviation));
     if deviation > ANOTHER * size || is_flat {
         outcome.requirements = vec![(id, vec![Requirement::Failed { left: None }])];
     }
