@@ -166,7 +166,7 @@ const MEANINGS: [Option<End>; 3] = [None, Some(End::Start), Some(End::Finish)];
 const FIRST_END: Parameter = Parameter {
     name: "first-end",
     label: "First curve's end",
-    help: "Which end of the first curve to join. Nearest: the closest pair of ends",
+    help: "Which end of the first is joined. Nearest: the closest pair; of two as close, the straighter",
     kind: ENDS,
 };
 
