@@ -1,8 +1,8 @@
 //! Drags of the curve itself and of closed vertices: the float S-polygon follows with the least change.
 
-use batten::document::Edit;
-use batten::editor::{Command, Follow, Input, Key};
-use batten::geometry::{ClampedPolygon, End, FloatPolygon};
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use batten::editor::{Command, Editor, Follow, Input, Key};
+use batten::geometry::{ClampedPolygon, Continuity, End, FloatPolygon};
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -266,5 +266,72 @@ fn live_harmony_begins_where_the_curve_is() {
     for step in [0.01, 0.1, 1.0] {
         let moved = far(&mut script, DVec2::new(step, 0.0));
         assert!(moved <= 20.0 * step * pixel, "{step}: {moved}");
+    }
+}
+
+#[test]
+fn at_a_matched_end_the_tangent_slides_and_the_end_is_held() {
+    let curve = |name: &str, shift: f64| {
+        let points: Vec<(f64, f64)> = (0..9)
+            .map(|index| (shift + f64::from(index), 0.1 * f64::from(index * index)))
+            .collect();
+        Curve::new(name, FloatPolygon::planar(4, &points).expect("a polygon"))
+    };
+    let document = Document::from_curves([curve("first", 0.0), curve("second", 5.0)]);
+    let ids: Vec<CurveId> = document.ids().collect();
+    for continuity in [Continuity::G0, Continuity::G1, Continuity::G2] {
+        let matched = EndMatch {
+            curve: ids[1],
+            end: End::Start,
+            source: ids[0],
+            place: MatchPlace::End(End::Finish),
+            continuity,
+            reversed: false,
+        };
+        let document = document
+            .edited([Edit::SetMatch(matched)])
+            .expect("it can be matched");
+        let mut script = Script {
+            editor: Editor::with_document(document),
+        };
+        script.command(Command::FitAll);
+        script.editor.activate(ids[1]);
+        let before = script.polygon();
+        let jet = before.end_jet(End::Start);
+        let handle = |polygon: &FloatPolygon| ClampedPolygon::from_float(polygon).vertices()[1];
+        // Up and to the right, mostly across the tangent.
+        let from = at_closed(&script, 1);
+        script.drag(from, from + DVec2::new(8.0, -12.0));
+        let after = script.polygon();
+        let now = handle(&after);
+        assert!(now != handle(&before), "{continuity:?}");
+        let tangent = jet.first.normalize();
+        let across = (now - jet.point).cross(tangent).length();
+        let end = after.end_jet(End::Start).point;
+        assert!(end.distance(jet.point) <= 1e-9 * before.size());
+        let slides = across <= 1e-7 * before.size();
+        assert_eq!(
+            slides,
+            continuity != Continuity::G0,
+            "{continuity:?}: {across}"
+        );
+        // What follows moves about as far as the handle.
+        let by = now.distance(handle(&before));
+        let steps = (0..=80).map(|step| f64::from(step) / 80.0 * before.segments() as f64);
+        let off = steps
+            .map(|u| after.point(u).distance(before.point(u)))
+            .fold(0.0, f64::max);
+        assert!(off <= 2.0 * by, "{continuity:?}: {off} for {by}");
+        script.command(Command::Undo);
+        assert_eq!(script.polygon(), before);
+
+        let from = at_closed(&script, 0);
+        script.drag(from, from + BY);
+        assert_eq!(script.polygon(), before);
+        assert!(
+            script.message().contains("the match holds it"),
+            "{}",
+            script.message()
+        );
     }
 }

@@ -4,11 +4,11 @@ use glam::{DVec2, DVec3};
 
 use super::move_drag::MoveDrag;
 use super::tool::{Context, Effect};
-use crate::document::{Curve, CurveId};
+use crate::document::{Curve, CurveId, quoted};
 use crate::editor::hand::following::{DraggedPoint, Followers, Following, PointKind};
 use crate::editor::hand::snapping::Carried;
 use crate::editor::view::scene::Mark;
-use crate::geometry::{ClampedPolygon, FloatPolygon, significant};
+use crate::geometry::{ClampedPolygon, Continuity, End, FloatPolygon, significant};
 
 /// A press near an end, by segments and by a share of all, takes the end where a drag of the point moves vertices more
 /// than so many times as far.
@@ -28,7 +28,27 @@ pub struct MovingPoint {
     /// Where the point was.
     from: DVec3,
     planar: bool,
+    /// The tangent at a matched end, along which alone the vertex beside it moves.
+    slide: Option<Slide>,
 }
+
+/// A way that a point slides along.
+#[derive(Clone, Copy, Debug)]
+struct Slide {
+    /// Its direction, of length 1.
+    along: DVec3,
+    /// How far back it goes.
+    back: f64,
+}
+
+impl Slide {
+    fn of(self, by: DVec3) -> DVec3 {
+        by.dot(self.along).max(-self.back) * self.along
+    }
+}
+
+/// The share of the way to its end that a vertex slides back.
+const MOST_BACK: f64 = 0.9;
 
 impl MovingPoint {
     /// Begin with the pointer at a place on the canvas; the label of the step comes with it.
@@ -47,6 +67,7 @@ impl MovingPoint {
         let point = DraggedPoint { kind, least_span };
         let point = taken(curve, point, &context.following)?;
         let from = position(&curve.polygon, point.kind).ok_or_else(String::new)?;
+        let slide = slide(id, &curve.polygon, point.kind, context)?;
         let planar = curve.polygon.is_planar();
         let carried = Carried {
             item: Some(id),
@@ -64,6 +85,7 @@ impl MovingPoint {
             point,
             from,
             planar,
+            slide,
         };
         Ok((moving, label))
     }
@@ -72,6 +94,7 @@ impl MovingPoint {
     pub fn drag(&mut self, place: DVec2, context: &Context) -> Effect {
         let by = self.drag.go_on(place, context);
         let by = context.movement(by, self.planar);
+        let by = self.slide.map_or(by, |slide| slide.of(by));
         let following = &context.following;
         let edit = following.point_edit(context.before, self.curve, self.point, by);
         Effect::preview(edit.map(|edit| vec![edit]))
@@ -121,6 +144,49 @@ impl MovingPoint {
         let curve = context.document.curve(self.curve)?;
         Some(context.following.point_words(&curve.polygon, self.point))
     }
+}
+
+/// The way that a closed vertex slides along because its match holds the tangent; `None` for other points.
+///
+/// # Errors
+/// Says so where a match holds the point itself.
+fn slide(
+    id: CurveId,
+    polygon: &FloatPolygon,
+    kind: PointKind,
+    context: &Context,
+) -> Result<Option<Slide>, String> {
+    let PointKind::Clamped(index) = kind else {
+        return Ok(None);
+    };
+    if polygon.is_periodic() {
+        return Ok(None);
+    }
+    let last = polygon.segments() + polygon.degree() - 1;
+    let sides = [
+        (End::Start, index),
+        (End::Finish, last.saturating_sub(index)),
+    ];
+    for (end, steps) in sides {
+        let Some(matched) = context.before.match_of(id, end) else {
+            continue;
+        };
+        let jet = polygon.end_jet(end);
+        let place = position(polygon, kind).unwrap_or(jet.point);
+        match (steps, (place - jet.point).try_normalize()) {
+            (0, _) => {
+                let source = context.before.name(matched.source).unwrap_or_default();
+                let (end, source) = (end.name(), quoted(source));
+                return Err(format!("The {end} follows {source}: the match holds it"));
+            }
+            (1, Some(along)) if matched.continuity != Continuity::G0 => {
+                let back = MOST_BACK * place.distance(jet.point);
+                return Ok(Some(Slide { along, back }));
+            }
+            _ => {}
+        }
+    }
+    Ok(None)
 }
 
 /// Say how far the float S-polygon moves with a closed vertex whose others stay.
