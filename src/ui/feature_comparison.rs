@@ -135,10 +135,11 @@ fn energy(energy: Option<f64>) -> String {
 
 fn joined(counts: &[FeatureCounts], text: impl Fn(&FeatureCounts) -> String) -> String {
     let texts: Vec<String> = counts.iter().map(text).collect();
-    if texts.is_empty() {
-        "–".to_owned()
-    } else {
-        texts.join(", ")
+    match &texts[..] {
+        [] => "–".to_owned(),
+        // Copies have the same figures.
+        [first, _, _, ..] if texts.iter().all(|text| text == first) => format!("{first} each"),
+        _ => texts.join(", "),
     }
 }
 

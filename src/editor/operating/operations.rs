@@ -638,8 +638,9 @@ impl Operating<'_> {
         let Some(first) = made.first() else {
             return;
         };
+        let inputs = current.operation.inputs;
         let follows = matches!(
-            current.operation.inputs,
+            inputs,
             Inputs::OneOrNone | Inputs::Points | Inputs::References
         );
         let (followed, was_active) = (current.curve(), current.selection.active());
@@ -657,7 +658,9 @@ impl Operating<'_> {
         };
         let mut others = made.iter().copied().filter(|id| *id != active);
         let compared = self.view.compared(active);
-        if compared.is_none_or(|id| !others.clone().any(|other| other == id))
+        // Copies of a curve are no two solutions.
+        if inputs != Inputs::One
+            && compared.is_none_or(|id| !others.clone().any(|other| other == id))
             && let Some(other) = others.next()
         {
             self.view.compare(active, Some(other));
