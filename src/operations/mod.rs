@@ -80,7 +80,6 @@ macro_rules! table {
 table! {
     reverse,
     mirror,
-    array,
     make_symmetric,
     reinterpret_degree,
     elevate_degree,

@@ -4,7 +4,6 @@
 mod common;
 
 mod approximations;
-mod arrays;
 mod between;
 mod degrees;
 mod descriptions;
