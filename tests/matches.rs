@@ -614,9 +614,24 @@ fn a_source_is_renamed_recoloured_hidden_and_locked_without_a_correction() {
 
 /// A vertex that is dragged at a matched end goes where it is dragged, and the others meet the match by moves that are
 /// not much larger; if they cannot, all move.
+/// A drag of one vertex of a curve.
+fn dragged(document: &Document, curve: CurveId, index: usize, by: DVec3) -> Document {
+    let before = &document.curve(curve).expect("a curve").polygon;
+    let edit = Edit::MoveVertices {
+        curve,
+        moves: vec![(index, before.vertex(index) + by)],
+    };
+    document.edited([edit]).expect("a move")
+}
+
+fn largest_move(before: &FloatPolygon, now: &FloatPolygon) -> f64 {
+    let pairs = before.vertices().iter().zip(now.vertices());
+    pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
 #[test]
 fn a_vertex_at_a_matched_end_goes_where_it_is_dragged() {
-    let (mut tries, mut obeyed) = (0, 0);
+    let (mut tries, mut obeyed, mut farthest) = (0, 0, 0.0_f64);
     for (name, document, matched) in cases() {
         let document = document
             .edited([Edit::SetMatch(matched)])
@@ -624,24 +639,54 @@ fn a_vertex_at_a_matched_end_goes_where_it_is_dragged() {
         let before = polygon(&document, 1);
         for index in before.terminal_vertices(matched.end) {
             let by = 0.01 * before.size() * DVec3::new(0.6, 0.8, 0.0);
-            let edit = Edit::MoveVertices {
-                curve: matched.curve,
-                moves: vec![(index, before.vertex(index) + by)],
-            };
-            let whole = document.edited([edit]).expect("a move");
-            let now = polygon(&whole, 1);
+            let [whole, half] =
+                [by, 0.5 * by].map(|by| dragged(&document, matched.curve, index, by));
             if !whole.meets(&matched) {
                 continue;
             }
             tries += 1;
-            let largest = now.vertices().iter().zip(before.vertices());
-            let largest = largest.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+            let [now, midway] = [&whole, &half].map(|document| polygon(document, 1));
             if now.vertex(index) == before.vertex(index) + by {
                 obeyed += 1;
-                assert!(largest <= 5.0 * by.length(), "{name}, {index}: {largest}");
+                farthest = farthest.max(largest_move(&before, &now) / by.length());
+                for vertex in 0..before.vertices().len() {
+                    let [all, part] =
+                        [&now, &midway].map(|it| it.vertex(vertex) - before.vertex(vertex));
+                    let off = (0.5 * all - part).length();
+                    assert!(off <= 1e-12 * before.size(), "{name}, {index}: {off}");
+                }
             }
         }
     }
-    println!("{obeyed} of {tries}");
+    println!("{obeyed} of {tries}, others by at most {farthest}");
     assert!(obeyed * 10 >= tries * 9, "{obeyed} of {tries}");
+    assert!(farthest <= 8.0 * (1.0 + 1e-9), "{farthest}");
+}
+
+#[test]
+fn no_drag_of_a_vertex_at_a_matched_end_jumps() {
+    const STEPS: usize = 25;
+    let (mut drags, mut worst) = (0, (0.0_f64, String::new()));
+    for (name, document, matched) in cases().step_by(3) {
+        let document = document
+            .edited([Edit::SetMatch(matched)])
+            .expect("it can be matched");
+        let start = polygon(&document, 1);
+        let step = 0.05 * start.size() / STEPS as f64 * DVec3::new(0.6, 0.8, 0.0);
+        for index in start.terminal_vertices(matched.end) {
+            drags += 1;
+            let mut before = start.clone();
+            for count in 1..=STEPS {
+                let now = dragged(&document, matched.curve, index, count as f64 * step);
+                let now = polygon(&now, 1);
+                let moved = largest_move(&before, &now) / step.length();
+                if moved > worst.0 {
+                    worst = (moved, format!("{name}, {index}, step {count}"));
+                }
+                before = now;
+            }
+        }
+    }
+    println!("{drags} drags, {worst:?}");
+    assert!(worst.0 <= 20.0, "{worst:?}");
 }

@@ -11,6 +11,7 @@ use crate::geometry::end_correction::{EndDifference, EndTarget};
 use crate::geometry::fairing::joint_correction::{
     Corrector, Disturbance, correct_hastily, correct_jointly,
 };
+use crate::geometry::fairing::kept_jets::with_kept_jets;
 use crate::geometry::fairing::near_end::{correct_near_end, has_ends_apart};
 use crate::geometry::{Continuity, End, FloatPolygon, Progress};
 
@@ -19,9 +20,6 @@ const ROUNDING: f64 = 1e-12;
 
 /// What may be left of a match that counts as met, in units of the end's size.
 const MET: f64 = 1e-9;
-
-/// How many times as far as what is dragged other vertices may move so that a match is met.
-const FARTHER: f64 = 4.0;
 
 impl EndMatch {
     /// The target that the match sets now; `None` if one of the curves is gone or does not have the place.
@@ -158,9 +156,9 @@ impl Document {
 
     /// Let matched ends follow what has changed: the other end of a curve keeps its point and
     /// direction, and locked vertices stay. Locked and hidden curves follow once they no longer are.
-    /// Vertices of its own that the step has moved stay too, where the others meet the match by moves that are not much
-    /// larger. Where a match cannot be met the curve stays as it is, and its target tells what is missing;
-    /// for the curves in `hasty` that is not tried long.
+    /// Vertices of its own that the step has moved stay too, where the others can keep what the ends had.
+    /// Where a match cannot be met the curve stays as it is, and its target tells what is missing; for the
+    /// curves in `hasty` that is not tried long.
     pub(super) fn follow(&mut self, before: &Self, hasty: &BTreeSet<CurveId>) {
         let possible = |matched: &EndMatch| matched.target(self).is_some();
         let kept: Vec<EndMatch> = self.matches().filter(|it| possible(it)).copied().collect();
@@ -179,8 +177,8 @@ impl Document {
                 } else {
                     correct_jointly
                 };
-                let dragged = Dragged::between(before.curve(curve), self.curve(curve));
-                self.correct(curve, dragged.as_ref(), correct);
+                let before = before.curve(curve).map(|curve| &curve.polygon);
+                self.correct(curve, before, correct);
             }
         }
     }
@@ -225,7 +223,7 @@ impl Document {
     }
 
     /// Give the matched ends of a curve their targets, and bring them there.
-    fn correct(&mut self, id: CurveId, dragged: Option<&Dragged>, correct: Corrector) {
+    fn correct(&mut self, id: CurveId, before: Option<&FloatPolygon>, correct: Corrector) {
         let Some(curve) = self.curve(id).filter(|curve| curve.visible) else {
             return;
         };
@@ -239,7 +237,7 @@ impl Document {
             }
         }
         if !curve.locked
-            && let Some(polygon) = met(curve, &matched, dragged, correct)
+            && let Some(polygon) = met(curve, &matched, before, correct)
         {
             corrected.polygon = polygon;
         }
@@ -257,52 +255,11 @@ fn is_met(polygon: &FloatPolygon, end: End, target: &EndTarget, tolerance: f64) 
     EndDifference::between(polygon, end, target).residual(size) <= tolerance * size
 }
 
-/// Vertices that a step has put somewhere else.
-struct Dragged {
-    vertices: Vec<usize>,
-    /// Their largest move.
-    by: f64,
-}
-
-impl Dragged {
-    /// The vertices that differ, unless all or none do.
-    fn between(before: Option<&Arc<Curve>>, now: Option<&Arc<Curve>>) -> Option<Self> {
-        let [before, now] = [&before?.polygon, &now?.polygon];
-        let vertices = now.moved_vertices(before);
-        let by = largest_move(before, now);
-        let some = !vertices.is_empty() && vertices.len() < now.vertices().len();
-        some.then_some(Self { vertices, by })
-    }
-
-    /// Whether the vertices that an end depends on can meet what is asked of it without these: a point, a direction, a
-    /// curvature and its slope take one vertex each.
-    fn leaves_room(&self, polygon: &FloatPolygon, (end, target): &(End, EndTarget)) -> bool {
-        let free = polygon.terminal_vertices(*end);
-        let free = free.filter(|index| !self.vertices.contains(index)).count();
-        let asked = [
-            target.direction.is_some(),
-            target.curvature.is_some(),
-            target.slope.is_some(),
-        ];
-        free > asked.iter().filter(|it| **it).count()
-    }
-
-    /// Whether the other vertices do not move much farther.
-    fn rules(&self, dragged: &FloatPolygon, corrected: &FloatPolygon) -> bool {
-        largest_move(dragged, corrected) <= FARTHER * self.by
-    }
-}
-
-fn largest_move(before: &FloatPolygon, now: &FloatPolygon) -> f64 {
-    let pairs = before.vertices().iter().zip(now.vertices());
-    pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
-}
-
 /// The polygon whose ends meet their targets; `None` if they do already, or cannot.
 fn met(
     curve: &Curve,
     matched: &[(End, EndTarget)],
-    dragged: Option<&Dragged>,
+    before: Option<&FloatPolygon>,
     correct: Corrector,
 ) -> Option<FloatPolygon> {
     let polygon = &curve.polygon;
@@ -310,30 +267,57 @@ fn met(
     if !matched.iter().any(is_missing) {
         return None;
     }
-    let corrected = |held: &[usize]| {
+    let locked: Vec<usize> = curve.locked_vertices.iter().collect();
+    let corrected = || {
         if has_ends_apart(polygon) {
             let mut ends = matched.iter();
             let one = |polygon: FloatPolygon, (end, target): &(End, EndTarget)| {
-                correct_near_end(&polygon, *end, target, held, correct).ok()
+                correct_near_end(&polygon, *end, target, &locked, correct).ok()
             };
             return ends.try_fold(polygon.clone(), one);
         }
         let least = Disturbance::Differences(1);
         let targets = with_kept_ends(polygon, matched);
-        let corrected = correct(polygon, &targets, least, held, &Progress::default());
+        let corrected = correct(polygon, &targets, least, &locked, &Progress::default());
         corrected.ok().map(|corrected| corrected.polygon)
     };
-    let locked: Vec<usize> = curve.locked_vertices.iter().collect();
-    let obeying = dragged
-        .filter(|dragged| matched.iter().all(|end| dragged.leaves_room(polygon, end)))
-        .and_then(|dragged| {
-            let held = locked.iter().chain(&dragged.vertices);
-            let held: Vec<usize> = held.copied().collect();
-            corrected(&held).filter(|found| dragged.rules(polygon, found))
-        });
-    let corrected = obeying.or_else(|| corrected(&locked))?;
+    let kept = before.and_then(|before| with_kept_matches(polygon, before, matched, &locked));
+    let corrected = kept.or_else(corrected)?;
     curve.check_held(&corrected).ok()?;
     Some(corrected)
+}
+
+/// The polygon whose ends are as they were before some of its vertices moved, if they met their targets then.
+fn with_kept_matches(
+    polygon: &FloatPolygon,
+    before: &FloatPolygon,
+    matched: &[(End, EndTarget)],
+    locked: &[usize],
+) -> Option<FloatPolygon> {
+    let meet = |polygon: &FloatPolygon| {
+        let mut ends = matched.iter();
+        ends.all(|(end, target)| is_met(polygon, *end, target, MET))
+    };
+    let levels = matched.iter().map(|(end, target)| (*end, level(target)));
+    let levels: Vec<_> = levels.collect();
+    Some(before)
+        .filter(|before| meet(before))
+        .and_then(|before| with_kept_jets(polygon, before, &levels, locked))
+        .filter(meet)
+}
+
+/// The level of continuity that a target asks for.
+fn level(target: &EndTarget) -> Continuity {
+    match target {
+        EndTarget { slope: Some(_), .. } => Continuity::G3,
+        EndTarget {
+            curvature: Some(_), ..
+        } => Continuity::G2,
+        EndTarget {
+            direction: Some(_), ..
+        } => Continuity::G1,
+        _ => Continuity::G0,
+    }
 }
 
 /// The targets of both ends: an end that is not matched keeps its point and direction.

@@ -64,6 +64,11 @@ impl PivotedCholesky {
         })
     }
 
+    /// The number of independent rows.
+    pub(super) fn rank(&self) -> usize {
+        self.rank
+    }
+
     /// Solve the system for the independent rows; the unknowns of the others are 0.
     pub(super) fn solve(&self, right: &[f64]) -> Vec<f64> {
         let mut places: Vec<f64> = self.order.iter().map(|row| right[*row]).collect();

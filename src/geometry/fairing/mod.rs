@@ -18,6 +18,7 @@ mod harmonised;
 pub mod harmonising;
 mod jet_weights;
 pub mod joint_correction;
+pub mod kept_jets;
 pub mod least_change;
 mod least_squares;
 pub mod near_end;
