@@ -80,6 +80,7 @@ macro_rules! table {
 table! {
     reverse,
     mirror,
+    array,
     make_symmetric,
     reinterpret_degree,
     elevate_degree,

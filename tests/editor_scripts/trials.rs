@@ -427,6 +427,7 @@ fn operations_are_offered_where_they_can_run() {
     for (name, is_offered) in [
         ("reverse", true),
         ("mirror", true),
+        ("array", true),
         ("make-symmetric", true),
         ("reinterpret-degree", true),
         ("elevate-degree", true),

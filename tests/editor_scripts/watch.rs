@@ -122,8 +122,12 @@ impl Watch {
         check_selection(window.document(), window.selection())?;
         check_view(window)?;
         check_matches(window)?;
-        // What a joining operation shows may come while a key or a command does nothing.
-        let nothing = matches!(done, Done::Transform | Done::Repeat | Done::Nothing);
+        // What a joining operation shows may come while a key, a command or the same value does nothing, and when it
+        // is amended.
+        let nothing = matches!(
+            done,
+            Done::Transform | Done::Repeat | Done::Nothing | Done::Look | Done::Amend
+        );
         let may_join = nothing && window.trial().is_some_and(joins);
         let replaced = done == Done::Replace
             && window.undo_steps() == 0

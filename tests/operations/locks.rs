@@ -108,8 +108,8 @@ fn no_operation_moves_a_locked_vertex() {
         let runner = runner(example, &[1, 3]);
         let before = runner.polygon();
         let held = [1, 3].map(|vertex| before.vertex(vertex));
-        // Subdividing gives locks to other vertices, and and a mirror image takes them along.
-        let others = |it: &&&Operation| !["subdivide", "mirror"].contains(&it.name);
+        // Subdividing gives locks to other vertices, and images and copies take them along.
+        let others = |it: &&&Operation| !["subdivide", "mirror", "array"].contains(&it.name);
         for operation in ALL.iter().filter(others) {
             let Ok(outcome) = runner.run(operation.name, &[]) else {
                 continue;

@@ -4,6 +4,7 @@
 mod common;
 
 mod approximations;
+mod arrays;
 mod between;
 mod degrees;
 mod descriptions;
