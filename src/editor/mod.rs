@@ -5,7 +5,6 @@ mod commands;
 mod dispatch;
 mod hand;
 mod jobs;
-mod left_target;
 mod operating;
 mod polygon_edits;
 mod reply;

@@ -64,6 +64,7 @@ pub use operation::Operation;
 pub use outcome::{Annotation, Deviation, Figure, Outcome};
 pub use parameter::{Choice, Kind, Parameter};
 pub use report::{LargestMove, Report};
+pub use targets::moved_with;
 pub use value::Value;
 pub use values::Values;
 

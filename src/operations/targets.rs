@@ -79,8 +79,8 @@ pub(super) fn corrected(
     Ok(Outcome::reshaped(id, polygon, deviation))
 }
 
-/// Say how an end moves with the other one, whose terminal vertices it shares.
-pub(super) fn moved_with(before: &FloatPolygon, end: End, after: &FloatPolygon) -> Option<String> {
+/// Say how an end moves with the other one, whose terminal vertices it shares. `None` if it stays.
+pub fn moved_with(before: &FloatPolygon, end: End, after: &FloatPolygon) -> Option<String> {
     let now = after.end_jet(end);
     let place = EndTarget::keeping(&before.end_jet(end));
     let size = before.size();

@@ -1,7 +1,9 @@
 //! Input handling: from inputs to gestures, to the tool in use, and from its effects to the document.
 
+mod drag_report;
 mod typing;
 
+use drag_report::drag_report;
 use glam::DVec2;
 
 use crate::document::CurveId;
@@ -10,13 +12,10 @@ use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
 use crate::editor::hand::menu::MenuTarget;
 use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind, Tools};
-use crate::editor::left_target::left_target;
 use crate::editor::operating::OperationInProgress;
-use crate::editor::reply::{Message, Note, Refusal, told, with_lines};
-use crate::editor::sharper::sharp_drag;
+use crate::editor::reply::{Message, Note, Refusal, told};
 use crate::editor::view::Look;
 use crate::editor::workspace::Interruption;
-use crate::operations::{followers, told_of_bent};
 
 /// The subject of a requested context menu.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -271,15 +270,8 @@ impl Editor {
                     let added = self.hand.added_beyond_the_drag(&self.workspace);
                     let analyses = &self.view.analyses;
                     self.hand.commit_kept(&mut self.workspace, analyses);
-                    let documents = [&before, self.workspace.document()];
-                    let fits = self.hand.tool() == ToolKind::EndFit;
-                    let dragged = self.hand.selection.active().filter(|_| fits);
-                    let other = self.hand.settings.end_fit.end.other();
-                    let left = dragged.and_then(|id| left_target(documents, id, other));
-                    let told = [added, sharp_drag(documents), left];
-                    let told: Vec<String> = told.into_iter().flatten().collect();
                     let warning =
-                        with_lines(told.join("\n"), &told_of_bent(&followers(documents, &[])));
+                        drag_report(&self.hand, [&before, self.workspace.document()], added);
                     if !warning.is_empty() {
                         self.message = Message::of(&Ok(Note::done(warning).warning()));
                     }
