@@ -9,6 +9,9 @@ use crate::geometry::{FloatPolygon, Progress, largest_curvature, rounded_up, sig
 /// A curve that moves by less than this share of its size moves by rounding.
 const STILL: f64 = 1e-9;
 
+/// A correction by less than this share of a curve's size leaves an exact result exact.
+const ROUNDING: f64 = 1e-12;
+
 /// A smallest radius that becomes so many times smaller is told.
 const SHARPER: f64 = 1.25;
 
@@ -99,22 +102,27 @@ pub fn told_of_bent(followers: &[Follower]) -> String {
 pub(super) fn tell(outcome: &mut Outcome, before: &Document, after: &Document) {
     outcome.remarks.extend(lost(before, after));
     let changed: Vec<(CurveId, FloatPolygon)> = outcome.edits.iter().filter_map(changed).collect();
+    let mut largest = Some(0.0_f64);
     for (id, polygon) in &changed {
         let Some(now) = after.curve(*id) else {
             continue;
         };
-        if now.polygon == *polygon {
+        let by = polygon.deviation(&now.polygon).ok();
+        if by.is_some_and(|by| by <= ROUNDING * polygon.size()) {
             continue;
         }
-        let corrected = polygon.deviation(&now.polygon);
-        let deviation = outcome.deviation;
-        outcome.deviation = corrected.map_or(Deviation::Unmeasured, |by| deviation.plus(by));
-        let moved = moved(polygon, &now.polygon).filter(|_| !stays(polygon, &now.polygon));
+        largest = largest.zip(by).map(|(largest, by)| largest.max(by));
+        let moved = moved(polygon, &now.polygon);
         let by = moved.map_or_else(String::new, |moved| format!(", and moved by up to {moved}"));
         let name = quoted(&now.name);
         let text = format!("{name} was corrected afterwards{by}, so that it meets its match");
         outcome.remarks.push(text);
     }
+    outcome.deviation = match largest {
+        Some(0.0) => outcome.deviation,
+        Some(by) => outcome.deviation.plus(by),
+        None => Deviation::Unmeasured,
+    };
     let changed: Vec<CurveId> = changed.iter().map(|(id, _)| *id).collect();
     for follower in followers([before, after], &changed) {
         match follower.bends {
