@@ -1,11 +1,13 @@
 //! What the integration tests share: the reference values and random numbers that repeat.
 #![allow(dead_code, unused_imports)] // Each test uses a part of it.
 
+mod matched;
 mod repeatable;
 
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::{Feature, Features, SegmentFeatures};
 use glam::DVec3;
+pub use matched::matched;
 use proptest::prelude::*;
 pub use repeatable::repeatable;
 use serde_json::Value;

@@ -1,10 +1,11 @@
 //! Drags of the curve itself and of closed vertices: the float S-polygon follows with the least change.
 
-use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use batten::document::Edit;
 use batten::editor::{Command, Editor, Follow, Input, Key};
 use batten::geometry::{ClampedPolygon, Continuity, End, FloatPolygon};
 use glam::{DVec2, DVec3};
 
+use super::common::matched;
 use super::script::Script;
 
 const BY: DVec2 = DVec2::new(9.0, -14.0);
@@ -271,31 +272,13 @@ fn live_harmony_begins_where_the_curve_is() {
 
 #[test]
 fn at_a_matched_end_the_tangent_slides_and_the_end_is_held() {
-    let curve = |name: &str, shift: f64| {
-        let points: Vec<(f64, f64)> = (0..9)
-            .map(|index| (shift + f64::from(index), 0.1 * f64::from(index * index)))
-            .collect();
-        Curve::new(name, FloatPolygon::planar(4, &points).expect("a polygon"))
-    };
-    let document = Document::from_curves([curve("first", 0.0), curve("second", 5.0)]);
-    let ids: Vec<CurveId> = document.ids().collect();
     for continuity in [Continuity::G0, Continuity::G1, Continuity::G2] {
-        let matched = EndMatch {
-            curve: ids[1],
-            end: End::Start,
-            source: ids[0],
-            place: MatchPlace::End(End::Finish),
-            continuity,
-            reversed: false,
-        };
-        let document = document
-            .edited([Edit::SetMatch(matched)])
-            .expect("it can be matched");
+        let (document, [_, second]) = matched(continuity, 5.0);
         let mut script = Script {
             editor: Editor::with_document(document),
         };
         script.command(Command::FitAll);
-        script.editor.activate(ids[1]);
+        script.editor.activate(second);
         let before = script.polygon();
         let jet = before.end_jet(End::Start);
         let handle = |polygon: &FloatPolygon| ClampedPolygon::from_float(polygon).vertices()[1];

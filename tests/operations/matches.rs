@@ -1,34 +1,11 @@
 //! What operations say of ends that follow other curves.
 
-use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
-use batten::geometry::{Continuity, End, FloatPolygon, Progress};
+use batten::document::{CurveId, Document, Edit, MatchPlace};
+use batten::geometry::{Continuity, End, Progress};
 use batten::operations::{Deviation, Operands, OperationError, Outcome, Value};
 
+use crate::common::matched;
 use crate::runner::operation;
-
-/// Two curves, the start of the second following the end of the first.
-fn matched() -> (Document, [CurveId; 2]) {
-    let curve = |name: &str, shift: f64| {
-        let points: Vec<(f64, f64)> = (0..9)
-            .map(|index| (shift + f64::from(index), 0.1 * f64::from(index * index)))
-            .collect();
-        Curve::new(name, FloatPolygon::planar(4, &points).expect("valid"))
-    };
-    let document = Document::from_curves([curve("first", 0.0), curve("second", 9.0)]);
-    let ids: Vec<CurveId> = document.ids().collect();
-    let matched = EndMatch {
-        curve: ids[1],
-        end: End::Start,
-        source: ids[0],
-        place: MatchPlace::End(End::Finish),
-        continuity: Continuity::G1,
-        reversed: false,
-    };
-    let document = document
-        .edited([Edit::SetMatch(matched)])
-        .expect("it can be matched");
-    (document, [ids[0], ids[1]])
-}
 
 fn run(
     document: &Document,
@@ -44,7 +21,7 @@ fn run(
 
 #[test]
 fn an_end_that_follows_has_no_other_target() {
-    let (document, [_, second]) = matched();
+    let (document, [_, second]) = matched(Continuity::G1, 9.0);
     let elsewhere = [("start", Value::List(vec![0.0, 5.0]))];
     let refused = run(&document, second, "correct-ends", &elsewhere).expect_err("it follows");
     let message = refused.to_string();
@@ -56,7 +33,7 @@ fn an_end_that_follows_has_no_other_target() {
 
 #[test]
 fn what_becomes_of_a_match_is_told() {
-    let (document, [first, second]) = matched();
+    let (document, [first, second]) = matched(Continuity::G1, 9.0);
     let digits = [("digits", Value::Whole(1))];
     let rounded = run(&document, second, "round", &digits).expect("it can run");
     let corrected = "“second” was corrected afterwards, and moved by up to ";
@@ -91,7 +68,7 @@ fn what_becomes_of_a_match_is_told() {
 
 #[test]
 fn what_follows_an_extended_end_stays() {
-    let (document, [first, second]) = matched();
+    let (document, [first, second]) = matched(Continuity::G1, 9.0);
     let polygon = |document: &Document, id| document.curve(id).expect("a curve").polygon.clone();
     let outcome = run(&document, first, "extend", &[]).expect("it can run");
     let after = outcome.applied_to(&document).expect("an edit");
@@ -128,7 +105,7 @@ fn what_follows_an_extended_end_stays() {
 
 #[test]
 fn a_curve_that_follows_an_operation_is_named() {
-    let (document, [first, _]) = matched();
+    let (document, [first, _]) = matched(Continuity::G1, 9.0);
     let to = [("to", Value::Real(2.0))];
     let trimmed = run(&document, first, "trim", &to).expect("it can run");
     let told = trimmed.warnings.iter().chain(&trimmed.remarks);
@@ -140,7 +117,7 @@ fn a_curve_that_follows_an_operation_is_named() {
 
 #[test]
 fn a_reversed_curve_follows_with_its_other_end() {
-    let (document, [_, second]) = matched();
+    let (document, [_, second]) = matched(Continuity::G1, 9.0);
     let outcome = run(&document, second, "reverse", &[]).expect("it can run");
     let after = outcome.applied_to(&document).expect("an edit");
     let turned = after.match_of(second, End::Finish).expect("a match");
