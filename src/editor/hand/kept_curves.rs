@@ -14,9 +14,10 @@ use crate::geometry::vertex_moves::MoveProver;
 /// The most segments of a curve that are proved anew in every frame.
 const MOST_SEGMENTS: usize = 256;
 
-/// Distances that differ by less than this share of the polygon's length are the same; those of vertices up to so many steps apart
-/// make a polygon rigid.
+/// Distances that differ by less than this share of the polygon's length are the same.
 const SIMILAR: f64 = 1e-9;
+
+/// Polygons are similar if the distances of vertices up to so many steps apart are.
 const RIGID: usize = 3;
 
 /// The features of a curve's segments, if they are proved already.

@@ -28,7 +28,7 @@ pub struct DrawTool {
     /// Where the drag that goes on began.
     pressed: Option<DVec2>,
     /// Where the pointer rested on the canvas when the last point was typed: until it moves it proposes none.
-    rested: Option<DVec2>,
+    typed_at: Option<DVec2>,
 }
 
 /// A curve through points that is longer than so many times their polyline is marked.
@@ -151,8 +151,8 @@ impl DrawTool {
     /// Where the pointer is in the view plane, unless it has not moved since a point was typed.
     fn pointer(&self, context: &Context) -> Option<DVec2> {
         let at = context.pointer?;
-        let moved = |rested: DVec2| context.viewport.to_screen(at).distance(rested) > RESTING;
-        self.rested.is_none_or(moved).then_some(at)
+        let moved = |typed_at: DVec2| context.viewport.to_screen(at).distance(typed_at) > RESTING;
+        self.typed_at.is_none_or(moved).then_some(at)
     }
 
     /// Where a click would put the next vertex: Shift keeps to multiples of 15°.
@@ -355,7 +355,7 @@ impl Tool for DrawTool {
             ));
         }
         self.pressed = None;
-        self.rested = context.pointer.map(|at| context.viewport.to_screen(at));
+        self.typed_at = context.pointer.map(|at| context.viewport.to_screen(at));
         if self.points.len() >= 3 && self.points.first() == Some(&vertex) {
             return Ok(self.finish(true, context));
         }
