@@ -378,8 +378,7 @@ impl App {
             Some(ExportAnswer::Write(choice)) => self.ask_export(context, choice),
             Some(ExportAnswer::Cancel) | None => {}
         }
-        let canvas = self.canvas.rect().unwrap_or(context.content_rect());
-        match recovery::recovery_ui(context, canvas, self.editor.recovery().recoverable()) {
+        match recovery::recovery_ui(context, self.editor.recovery().recoverable()) {
             Some(Choice::Open(id)) => self.confirm(context, AfterDiscard::Recover(id)),
             Some(Choice::Discard(id)) => self.editor.recovery_mut().discard(id),
             Some(Choice::Later) => self.editor.recovery_mut().leave(),

@@ -1,10 +1,10 @@
-//! What earlier sessions have left unsaved: a list with small pictures, beside which work can go on.
+//! What earlier sessions have left unsaved: a list with small pictures.
 
 use std::time::SystemTime;
 
 use eframe::egui::{
-    Align, Align2, Button, Context, Id, Label, Layout, Pos2, Rect, RichText, ScrollArea, Sense,
-    Shape, Stroke, Ui, Vec2, Window, vec2,
+    Align, Button, Context, Id, Label, Layout, Pos2, Rect, RichText, ScrollArea, Sense, Shape,
+    Stroke, Ui, Vec2, vec2,
 };
 use glam::DVec2;
 
@@ -36,28 +36,13 @@ pub enum Choice {
     Later,
 }
 
-/// Show the recovered documents, if there are any; returns the user's choice.
-pub fn recovery_ui(context: &Context, canvas: Rect, all: &[Recoverable]) -> Option<Choice> {
+/// Show the recovered documents, if there are any, until each is opened, discarded or left; returns the user's choice.
+pub fn recovery_ui(context: &Context, all: &[Recoverable]) -> Option<Choice> {
     if all.is_empty() {
         return None;
     }
-    let id = Id::unique("recovered documents");
-    let window = Window::new("Recovered documents")
-        .id(id)
-        .frame(widgets::dialog_frame(&context.global_style()))
-        .pivot(Align2::CENTER_CENTER)
-        .default_pos(canvas.center())
-        .title_bar(false)
-        .resizable(false);
-    // It stays where it was put, until the canvas gets another size.
-    let last = context.data_mut(|data| std::mem::replace(data.get_temp_mut_or(id, canvas), canvas));
-    let window = match last == canvas {
-        true => window,
-        false => window.current_pos(canvas.center()),
-    };
-    let shown = window.show(context, |ui| {
+    widgets::modal(context, "recovered documents", Choice::Later, |ui| {
         ui.set_width(WIDTH);
-        ui.spacing_mut().item_spacing.y = 2.0 * STEP;
         ui.strong("Recovered documents");
         widgets::note(ui, "Batten closed before these documents were saved.");
         let area = ScrollArea::vertical().max_height(HEIGHT);
@@ -76,8 +61,7 @@ pub fn recovery_ui(context: &Context, canvas: Rect, all: &[Recoverable]) -> Opti
             });
         });
         chosen.inner.or(later)
-    });
-    shown?.inner?
+    })
 }
 
 /// Where the documents are kept, in the room that is left.
