@@ -21,9 +21,9 @@ pub use commands::drawing::end_drawing;
 pub use commands::{Command, CopyForm, ReferenceChange, Shortcut};
 pub use dispatch::MenuOf;
 pub use hand::{
-    Button, Cursor, DrawSettings, DrawWay, EndFitAction, EndFitReport, EndNoise, Entry, EntryError,
-    Follow, Following, Hand, Input, Key, Leg, LegLocks, MatchReport, MenuRequest, MenuSubject,
-    Modifiers, ToolKind, ToolRow, Transformation,
+    Arrangement, Button, Cursor, DrawSettings, DrawWay, EndFitAction, EndFitReport, EndNoise,
+    Entry, EntryError, Follow, Following, Hand, Input, Key, Leg, LegLocks, MatchReport,
+    MenuRequest, MenuSubject, Modifiers, ToolKind, ToolRow, Transformation,
 };
 pub use jobs::edited_file::EditedFile;
 pub use jobs::exporting::ExportForecast;

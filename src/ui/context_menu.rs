@@ -5,7 +5,9 @@ use eframe::egui::{
 };
 
 use super::action::Action;
-use super::menu::{Entry, command, compare, entries_ui, layers, references, views};
+use super::menu::{
+    ARRANGE, Entry, arrangements, command, compare, entries_ui, layers, references, views,
+};
 use super::menu_item::WIDTH;
 use super::shell::Shell;
 use crate::editor::{Command, Editor, Follow, Layer, MenuSubject, ToolKind};
@@ -100,6 +102,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
             command(Command::ToggleVerticesLocked),
             tool(ToolKind::Rotate),
             tool(ToolKind::Scale),
+            Entry::Submenu(ARRANGE, arrangements()),
             Divider,
             command(Command::Follow(Follow::InHarmony)),
             command(Command::Follow(Follow::Softly)),
@@ -130,6 +133,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
                 Divider,
             ];
             let (rotate, scale) = (tool(ToolKind::Rotate), tool(ToolKind::Scale));
+            let arrange = Entry::Submenu(ARRANGE, arrangements());
             if subject == MenuSubject::Curve {
                 let mut changing = operations::ALL.to_vec();
                 changing.retain(|it| {
@@ -142,7 +146,9 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
                 let operations = Entry::Submenu("Operations", changing);
                 let periodic = command(Command::TogglePeriodic);
                 let select = command(Command::SelectAll);
-                entries.extend([operations, periodic, rotate, scale, Divider, select]);
+                entries.extend([
+                    operations, periodic, rotate, scale, arrange, Divider, select,
+                ]);
             } else {
                 let document = editor.document();
                 let reference = editor.active().and_then(|id| document.reference(id));
@@ -155,7 +161,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
                 if !is_list {
                     entries.push(operation(&operations::to_float::OPERATION));
                 }
-                entries.extend([rotate, scale, Divider]);
+                entries.extend([rotate, scale, arrange, Divider]);
             }
             entries.extend([
                 command(Command::Fit),

@@ -10,7 +10,8 @@ use super::plots::others;
 use super::shell::Shell;
 use super::widgets;
 use crate::editor::{
-    CombsOf, Command, CopyForm, CurvatureDisplay, Editor, Follow, Layer, NamedView, ToolKind,
+    Arrangement, CombsOf, Command, CopyForm, CurvatureDisplay, Editor, Follow, Layer, NamedView,
+    ToolKind,
 };
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::KINDS;
@@ -35,6 +36,18 @@ use Entry::{Action as Item, Divider};
 /// A line for a command.
 pub fn command(command: Command) -> Entry {
     Item(Action::Command(command))
+}
+
+/// The menu that aligns and distributes.
+pub const ARRANGE: &str = "Align and distribute";
+
+/// The lines that align and distribute what is selected.
+pub fn arrangements() -> Vec<Entry> {
+    let entry = |it: Arrangement| command(Command::Arrange(it));
+    let (aligning, distributing) = Arrangement::ALL.split_at(6);
+    let aligning = aligning.iter().map(|it| entry(*it));
+    let distributing = distributing.iter().map(|it| entry(*it));
+    aligning.chain([Divider]).chain(distributing).collect()
 }
 
 /// Show the menu bar, and the verdict on the active curve at its right end.
@@ -206,6 +219,8 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         command(Command::SelectAll),
         command(Command::SelectNone),
+        Divider,
+        Entry::Submenu(ARRANGE, arrangements()),
         Divider,
         command(Command::ToggleVerticesLocked),
         command(Command::ToggleSnapping),

@@ -6,6 +6,7 @@ mod common;
 mod drawings;
 
 mod approximating;
+mod arranging;
 mod autosaving;
 mod background;
 mod between;

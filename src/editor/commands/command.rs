@@ -3,7 +3,7 @@
 use crate::document::CurveId;
 use crate::editor::hand::following::Follow;
 use crate::editor::hand::input::{Key, Modifiers};
-use crate::editor::hand::tools::ToolKind;
+use crate::editor::hand::tools::{Arrangement, ToolKind};
 use crate::editor::same_shape::KEEP_SHAPE;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::{CombsOf, CurvatureDisplay, NamedView};
@@ -48,6 +48,8 @@ pub enum Command {
     ToggleLocked,
     /// Hide what is not selected, or show it again.
     Isolate,
+    /// Align or distribute what is selected.
+    Arrange(Arrangement),
     /// Fit the selected vertices, or the selected curves.
     Fit,
     /// Fit everything.
@@ -168,6 +170,7 @@ impl Command {
             Self::ToggleLocked,
             Self::Isolate,
         ];
+        all.extend(Arrangement::ALL.map(Self::Arrange));
         all.extend(Self::units());
         all.extend(LengthUnit::ALL.map(Self::ConvertUnit));
         all.extend(operations::ALL.iter().copied().map(Self::Operation));
@@ -210,6 +213,7 @@ impl Command {
             Self::ToggleVisible => "Visible",
             Self::ToggleLocked => "Locked",
             Self::Isolate => "Isolate",
+            Self::Arrange(arrangement) => arrangement.label(),
             Self::Fit => "Fit selection",
             Self::FitAll => "Fit all",
             Self::ZoomIn => "Zoom in",
@@ -265,6 +269,7 @@ impl Command {
                 "Protect the shapes of selected curves from edits, or release them"
             }
             Self::Isolate => "Show only what is selected; again, show what that has hidden",
+            Self::Arrange(arrangement) => arrangement.tooltip(),
             Self::Fit => "Show the selected vertices, or the selected curves if fewer than two are",
             Self::FitAll => "Zoom to fit everything",
             Self::ZoomIn => "Enlarge the view",

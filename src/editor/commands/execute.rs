@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::document::{Curve, CurveId, Document, Edit, Reference};
+use crate::editor::commands::arranging::arrange;
 use crate::editor::commands::command::Command;
 use crate::editor::commands::deleting;
 use crate::editor::commands::drawing::end_drawing;
@@ -188,6 +189,7 @@ impl Editor {
             Command::SelectAll => {
                 select_all(&mut self.hand.selection, self.workspace.document())?;
             }
+            Command::Arrange(arrangement) => return arrange(self, arrangement),
             Command::SelectNone => self.hand.selection.set_items([]),
             Command::Tool(tool) => {
                 let ended = end_drawing(self);

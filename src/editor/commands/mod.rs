@@ -1,5 +1,6 @@
 //! Commands: their table, and their execution.
 
+mod arranging;
 mod clipboard;
 pub(in crate::editor) mod command;
 mod deleting;

@@ -23,6 +23,14 @@ impl Command {
             | Command::ToggleVisible
             | Command::ToggleLocked
             | Command::Isolate => active,
+            Command::Arrange(arrangement) => {
+                let selection = &editor.hand.selection;
+                let count = match selection.is_empty() {
+                    true => items.len(),
+                    false => selection.vertices().len(),
+                };
+                count >= arrangement.least()
+            }
             Command::TogglePeriodic => {
                 let mut curves = items.iter().filter_map(|id| document.curve(*id));
                 curves.any(|curve| curve.check_editable().is_ok())

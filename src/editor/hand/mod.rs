@@ -27,5 +27,7 @@ pub use following::{Follow, Following};
 pub use hand::Hand;
 pub use input::{Button, Input, Key, Modifiers};
 pub use menu_request::{MenuRequest, MenuSubject};
-pub use tools::{Cursor, DrawSettings, DrawWay, Entry, ToolKind, ToolRow, Transformation};
+pub use tools::{
+    Arrangement, Cursor, DrawSettings, DrawWay, Entry, ToolKind, ToolRow, Transformation,
+};
 pub use typed_point::EntryError;

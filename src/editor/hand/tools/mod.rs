@@ -1,5 +1,6 @@
 //! The table of tools, and the tools: state machines from gestures to effects.
 
+mod arrangement;
 mod delete;
 mod draw;
 mod draw_way;
@@ -21,6 +22,7 @@ mod transformation;
 mod transformed;
 mod vertices;
 
+pub use arrangement::Arrangement;
 pub use draw_way::DrawWay;
 pub use settings::{DrawSettings, ToolSettings};
 pub use tool::{Context, Cursor, Effect, Entry, Tool};

@@ -11,8 +11,17 @@ use crate::editor::selection::VertexId;
 use crate::editor::view::outline::Bounds;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::references::{Placement, ReferenceCurve, ReferenceError};
-use crate::geometry::{ParametricCurve, counted};
+use crate::geometry::{ParametricCurve, counted, extent};
 use crate::io::counted_items;
+
+/// What moves without changing its shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A vertex of its own.
+    Vertex(VertexId),
+    /// A curve or a reference.
+    Item(CurveId),
+}
 
 /// Hold the items of a transformation, as they were before.
 #[derive(Clone, Debug)]
@@ -63,6 +72,56 @@ impl Transformed {
     /// Whether it can be scaled along one axis: a reference keeps its shape.
     pub fn can_stretch(&self) -> bool {
         self.references.is_empty()
+    }
+
+    /// The items that keep their shape: each vertex, or each curve and reference.
+    pub fn parts(&self) -> Vec<Part> {
+        let mut parts: Vec<Part> = self.vertices().map(|vertex| self.part(vertex)).collect();
+        parts.dedup();
+        parts.extend(self.references.iter().map(|(id, _)| Part::Item(*id)));
+        parts
+    }
+
+    fn part(&self, vertex: VertexId) -> Part {
+        match self.are_items {
+            true => Part::Item(vertex.0),
+            false => Part::Vertex(vertex),
+        }
+    }
+
+    /// How far a part reaches along a direction.
+    pub(super) fn extent(&self, part: Part, direction: DVec3, context: &Context) -> [f64; 2] {
+        let none = [0.0; 2];
+        match part {
+            Part::Vertex(vertex) => {
+                let mut own = self.vertices.iter().filter(|(id, _)| *id == vertex);
+                own.next().map_or(none, |(_, at)| [direction.dot(*at); 2])
+            }
+            Part::Item(id) => match (context.before.curve(id), context.before.reference(id)) {
+                (Some(curve), _) => extent(&curve.polygon, direction),
+                (_, Some(reference)) => extent(&reference.curve, direction),
+                _ => none,
+            },
+        }
+    }
+
+    /// The edits that take each part to a place: `to` tells it of each vertex or origin of a part.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] if a reference cannot be placed so.
+    pub(super) fn placed_by(
+        &self,
+        to: impl Fn(Part, DVec3) -> DVec3,
+    ) -> Result<Vec<Edit>, ReferenceError> {
+        let vertices = self.vertices.iter();
+        let mut edits = move_edits(vertices.map(|(id, at)| (*id, to(self.part(*id), *at))));
+        for (id, curve) in &self.references {
+            let now = curve.placement();
+            let to = to(Part::Item(*id), now.translation());
+            let placement = Placement::new(now.rotation(), now.scale(), to)?;
+            edits.push(set_placement(*id, curve, placement));
+        }
+        Ok(edits)
     }
 
     /// The middle of the items as they are seen, if there are any.
