@@ -12,9 +12,9 @@ use crate::geometry::end::End;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::pivoted_cholesky::PivotedCholesky;
 
-/// How far a vertex may go for each unit of the given moves. One dragged vertex of a curve without weights needs
-/// 7 at most, but for the middle ones of degree 6 at G3 (12); beyond, its neighbours would seem to be dragged.
-const FARTHEST: f64 = 8.0;
+/// How far a vertex may go for each unit of the given moves; beyond, its neighbours would seem to be dragged. One dragged
+/// vertex of a curve without weights needs up to 4.2, but for the middle ones by degree 5 at G2 and G3 (7), 6 at G3 (12).
+const FARTHEST: f64 = 4.5;
 
 /// What counts as dependent among conditions of length 1. A pivot below would lose half of all digits.
 const DEPENDENT: f64 = 1e-14;
@@ -27,7 +27,7 @@ const DEPENDENT: f64 = 1e-14;
 /// weights w⁽ʳ⁾ of the vertices in the derivative r. An end that is not listed keeps the point and first
 /// derivative that it has now.
 ///
-/// `None` if no vertex moved, if the others cannot keep what is asked, or only by more than 8 times the moves.
+/// `None` if no vertex moved, if the others cannot keep what is asked, or only by more than 4.5 times the moves.
 pub fn with_kept_jets(
     polygon: &FloatPolygon,
     before: &FloatPolygon,
@@ -278,7 +278,7 @@ mod tests {
         }
         // All but those that leave too few vertices, or would send others far.
         println!("{kept_all}");
-        assert!(kept_all >= 440, "{kept_all}");
+        assert!(kept_all >= 400, "{kept_all}");
     }
 
     #[test]
