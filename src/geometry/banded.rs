@@ -102,6 +102,17 @@ impl BandedQr {
         self.back(x)
     }
 
+    /// The rows of R, whose sum of squares at any x is that of J.
+    pub(super) fn triangle(self) -> Vec<BandedRow> {
+        let rows = self.rows.into_iter().enumerate();
+        let rows = rows.map(|(first, entries)| BandedRow {
+            first,
+            entries,
+            right: 0.0,
+        });
+        rows.collect()
+    }
+
     /// Solve R x = `right`.
     fn back(&self, mut x: Vec<f64>) -> Vec<f64> {
         for (row, entries) in self.rows.iter().enumerate().rev() {
@@ -162,6 +173,24 @@ mod tests {
                     assert!((a - b).abs() < 1e-11, "order {order}: {a} against {b}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_triangle_has_the_sum_of_squares_of_all_rows() {
+        let count = 12;
+        let rows = rows(2, count, 0.1);
+        let sum = |rows: &[BandedRow], x: &[f64]| -> f64 {
+            rows.iter().map(|row| times(row, x).powi(2)).sum()
+        };
+        let factors = BandedQr::new(rows.clone(), count).expect("independent columns");
+        let triangle = factors.triangle();
+        assert_eq!(triangle.len(), count);
+        for phase in 0..8 {
+            let x = (0..count).map(|index| (index as f64 * 0.7 + f64::from(phase)).sin());
+            let x: Vec<f64> = x.collect();
+            let [all, few] = [&rows, &triangle].map(|rows| sum(rows, &x));
+            assert!((all - few).abs() <= 1e-14 * all, "{all} {few}");
         }
     }
 

@@ -6,7 +6,7 @@ use super::flow::{Member, Sequence};
 use super::jet_weights::JetWeights;
 use super::least_squares::LeastSquares;
 use super::unknowns::Unknowns;
-use crate::geometry::banded::difference_stencil;
+use crate::geometry::banded::{BandedQr, BandedRow, difference_stencil};
 use crate::geometry::float_polygon::FloatPolygon;
 
 /// A sum of squares of the vertices p, which were at p⁰.
@@ -189,29 +189,60 @@ enum Row<'a> {
 }
 
 /// Visit the weights of the vertices in derivatives of the curve at samples, times a factor for each
-/// order, as far as they depend on the unknowns.
+/// order, as far as they depend on the unknowns. Fewer rows with the same sum of squares take their place where they can.
 fn curve_rows(
     polygon: &FloatPolygon,
     unknowns: &Unknowns,
     factors: &[(usize, f64)],
     row: &mut impl FnMut(&[(usize, f64)]),
 ) {
+    let width = polygon.degree() + 1;
+    // All segments without weights have the same rows.
+    let common = (!polygon.is_rational()).then(|| fewer(sampled(polygon, 0, factors), width));
     for segment in 0..polygon.segments() {
-        let mut reached = wrapped(polygon, segment, polygon.degree() + 1);
+        let mut reached = wrapped(polygon, segment, width);
         if !reached.any(|vertex| unknowns.moves(vertex)) {
             continue;
         }
-        for sample in 0..SAMPLES {
-            let t = (sample as f64 + 0.5) / SAMPLES as f64;
-            let weights = JetWeights::of_segment(polygon, segment, t);
-            for (order, factor) in factors {
-                let terms = weights.terms(*order);
-                let terms: Vec<_> = terms
-                    .map(|(vertex, weight)| (vertex, factor * weight))
-                    .collect();
-                row(&terms);
+        let own;
+        let rows = match &common {
+            Some(rows) => rows,
+            None => {
+                own = sampled(polygon, segment, factors);
+                &own
             }
+        };
+        for BandedRow { first, entries, .. } in rows {
+            let touched = wrapped(polygon, segment + first, entries.len());
+            let terms: Vec<(usize, f64)> = touched.zip(entries.iter().copied()).collect();
+            row(&terms);
         }
+    }
+}
+
+/// The weights of a segment's vertices at the samples.
+fn sampled(polygon: &FloatPolygon, segment: usize, factors: &[(usize, f64)]) -> Vec<BandedRow> {
+    let of_sample = |sample: usize| {
+        let t = (sample as f64 + 0.5) / SAMPLES as f64;
+        let weights = JetWeights::of_segment(polygon, segment, t);
+        let rows = factors.iter().map(move |(order, factor)| BandedRow {
+            first: 0,
+            entries: weights
+                .terms(*order)
+                .map(|(_, weight)| factor * weight)
+                .collect(),
+            right: 0.0,
+        });
+        rows.collect::<Vec<_>>()
+    };
+    (0..SAMPLES).flat_map(of_sample).collect()
+}
+
+/// At most one row for each column, with the same sum of squares; the rows themselves if they are fewer.
+fn fewer(rows: Vec<BandedRow>, columns: usize) -> Vec<BandedRow> {
+    match BandedQr::new(rows.clone(), columns) {
+        Some(factors) => factors.triangle(),
+        None => rows,
     }
 }
 
