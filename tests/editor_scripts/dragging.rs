@@ -3,9 +3,10 @@
 use batten::document::{Curve, Document, Edit};
 use batten::editor::{Command, Look, ToolKind};
 use batten::editor::{DragReadout, Editor, HoverScene, Input, Key, Mark, Modifiers, NamedView};
-use batten::geometry::FloatPolygon;
+use batten::geometry::{Continuity, FloatPolygon};
 use glam::{DVec2, DVec3};
 
+use super::common::matched;
 use super::script::Script;
 
 fn readout(script: &mut Script) -> Option<DragReadout> {
@@ -290,4 +291,24 @@ fn a_drag_that_bends_a_curve_sharply_warns_and_one_that_scales_it_does_not() {
     script.command(Command::Tool(ToolKind::Scale));
     script.editor.enter("0.05").expect("a factor");
     assert_eq!(warning(&script), None, "a smaller curve bends as before");
+}
+
+/// By degree 4 three vertices cannot keep four derivatives, so that all move at G3 and the dragged one lags.
+#[test]
+fn a_vertex_that_its_match_holds_back_says_so() {
+    for (continuity, lags) in [(Continuity::G1, false), (Continuity::G3, true)] {
+        let (document, [_, second]) = matched(continuity, 5.0);
+        let mut script = Script {
+            editor: Editor::with_document(document),
+        };
+        script.command(Command::FitAll);
+        script.editor.activate(second);
+        let from = script.at_vertex(3);
+        script.press(from);
+        script.move_to(from + DVec2::new(6.0, -20.0));
+        let remarks = readout(&mut script).expect("a readout").remarks;
+        let told = remarks.contains(&"The match holds it back".to_owned());
+        assert_eq!(told, lags, "{continuity:?}: {remarks:?}");
+        script.release(from);
+    }
 }

@@ -55,6 +55,11 @@ impl MoveDrag {
         self.by
     }
 
+    /// By how much it is dragged in the view plane.
+    pub fn by(&self) -> DVec2 {
+        self.by
+    }
+
     /// Tell of a point that was dragged from somewhere to somewhere, with a remark and what the drag adds, or why it
     /// is held back.
     pub fn readout(
