@@ -6,8 +6,9 @@ mod winding;
 
 use std::hint::black_box;
 
-use batten::document::{Curve, Document};
+use batten::document::{Curve, Document, Edit, Reference};
 use batten::editor::{CombsOf, Command, Editor, Layer, Look};
+use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use batten::geometry::{ClampedPolygon, FloatPolygon};
 use batten::ui::App;
 use criterion::{Bencher, BenchmarkId, Criterion, criterion_group, criterion_main};
@@ -232,5 +233,46 @@ fn crowds(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, drag, handles, crowds);
+/// A curve beside so many points that it is compared with.
+fn compared(points: usize) -> Editor {
+    let document = winding(100);
+    let (id, curve) = document.curves().next().expect("a curve");
+    let segments = curve.polygon.segments() as f64;
+    let places = (0..points).map(|index| {
+        let u = segments * (index as f64 + 0.5) / points as f64;
+        curve.polygon.point(u) + 3.0 * (0.7 * index as f64).sin() * DVec3::Y
+    });
+    let points = PointList::new(places.collect()).expect("points");
+    let points = ReferenceCurve::of(ReferenceForm::Points(points)).expect("a reference");
+    let points = Edit::AddReference(Box::new(Reference::new("points", points)));
+    let mut editor = Editor::with_document(document);
+    editor
+        .apply("Add points", vec![points])
+        .expect("they are added");
+    let (points, _) = editor.document().references().next().expect("points");
+    editor.activate(id);
+    editor
+        .execute(Command::Compare(Some(points)))
+        .expect("a comparison");
+    editor
+}
+
+fn whiskers(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("a frame with whiskers while a vertex is dragged");
+    for points in [1_000] {
+        let mut window = Window::on(compared(points));
+        // The worker measures.
+        while window.app.editor().sight().deviation().is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            window.frame(Vec::new());
+        }
+        let at = window.press(Handle::Vertex(50));
+        group.bench_function(BenchmarkId::from_parameter(points), |bencher| {
+            frames(bencher, &mut window, at);
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, drag, handles, crowds, whiskers);
 criterion_main!(benches);
