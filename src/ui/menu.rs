@@ -224,6 +224,7 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         command(Command::ToggleVerticesLocked),
         command(Command::ToggleSnapping),
+        command(Command::ToggleAlignment),
         command(Command::Follow(Follow::InHarmony)),
         command(Command::Follow(Follow::Softly)),
         command(Command::ToggleClosedFollow),

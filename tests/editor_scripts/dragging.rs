@@ -312,3 +312,46 @@ fn a_vertex_that_its_match_holds_back_says_so() {
         script.release(from);
     }
 }
+
+#[test]
+fn a_drag_lines_up_with_vertices_and_ends() {
+    let mut script = two();
+    script.command(Command::ToggleSnapping);
+    let level = script.at_vertex(1).y;
+    let from = script.at_vertex(2);
+    script.press(from);
+    // Far from all points, a little above the level of vertex 1.
+    let to = DVec2::new(from.x + 37.0, level - 2.0);
+    script.move_to(to);
+    let remarks = readout(&mut script).expect("a readout").remarks;
+    assert!(
+        remarks.contains(&"level with vertex 1".to_owned()),
+        "{remarks:?}"
+    );
+    let lines = |script: &mut Script| {
+        let marks = script.scene().marks.iter();
+        marks
+            .filter(|it| matches!(it, Mark::Axis { axis: None, .. }))
+            .count()
+    };
+    assert_eq!(lines(&mut script), 1);
+    let polygon = script.polygon();
+    let off = (polygon.vertex(2).y - polygon.vertex(1).y).abs();
+    assert!(off <= 1e-15 * polygon.size(), "{off}");
+    // A little farther the crossing with the upright line of vertex 3 attracts.
+    let upright = script.at_vertex(3).x;
+    script.move_to(DVec2::new(upright + 2.0, level - 2.0));
+    let remarks = readout(&mut script).expect("a readout").remarks;
+    assert!(remarks[0].contains("level with vertex 1"), "{remarks:?}");
+    assert!(remarks[0].contains("upright with vertex 3"), "{remarks:?}");
+    assert_eq!(lines(&mut script), 2);
+    // Without the switch the grid alone is left.
+    script.command(Command::ToggleAlignment);
+    script.move_to(to);
+    let remarks = readout(&mut script).expect("a readout").remarks;
+    assert!(
+        !remarks.iter().any(|it| it.contains("level")),
+        "{remarks:?}"
+    );
+    assert_eq!(lines(&mut script), 0);
+}

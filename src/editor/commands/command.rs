@@ -76,6 +76,8 @@ pub enum Command {
     ShowCombs(CombsOf),
     /// Snap to grid, vertices and targets, or not.
     ToggleSnapping,
+    /// Let alignment lines attract, too, or not.
+    ToggleAlignment,
     /// Let the neighbours of dragged vertices follow, or not.
     Follow(Follow),
     /// Let the other closed vertices follow a dragged one, or stay.
@@ -141,6 +143,7 @@ impl Command {
                 | Self::ShowCurvature(_)
                 | Self::ShowCombs(_)
                 | Self::ToggleSnapping
+                | Self::ToggleAlignment
                 | Self::Follow(_)
                 | Self::ToggleClosedFollow
                 | Self::ToggleKeepShape
@@ -183,7 +186,11 @@ impl Command {
         all.push(Self::ToggleBands);
         all.extend(CurvatureDisplay::ALL.map(Self::ShowCurvature));
         all.extend(CombsOf::ALL.map(Self::ShowCombs));
-        all.extend([Self::ToggleSnapping, Self::ToggleKeeping]);
+        all.extend([
+            Self::ToggleSnapping,
+            Self::ToggleAlignment,
+            Self::ToggleKeeping,
+        ]);
         all.extend(Follow::ALL.map(Self::Follow));
         all.extend([Self::ToggleClosedFollow, Self::ToggleKeepShape]);
         all.extend(ToolKind::ALL.map(Self::Tool));
@@ -228,6 +235,7 @@ impl Command {
             Self::ShowCurvature(display) => display.label(),
             Self::ShowCombs(of) => of.label(),
             Self::ToggleSnapping => "Snapping",
+            Self::ToggleAlignment => "Alignment lines",
             Self::Follow(follow) => follow.label(),
             Self::ToggleClosedFollow => "Closed vertices follow",
             Self::ToggleKeepShape => KEEP_SHAPE,
@@ -287,6 +295,9 @@ impl Command {
             Self::ShowCurvature(_) => "Choose whether the window shows κ, the radius R, or both",
             Self::ToggleSnapping => {
                 "Let dragged points snap to the grid, to vertices and to targets"
+            }
+            Self::ToggleAlignment => {
+                "While snapping is on, snap to lines through vertices, ends and their tangents"
             }
             Self::Follow(follow) => follow.tooltip(),
             Self::ToggleClosedFollow => {

@@ -32,6 +32,8 @@ pub struct Hand {
     /// The axis of the model (0 x, 1 y, 2 z) whose key is held.
     pub(in crate::editor) axis: Option<usize>,
     pub(in crate::editor) snapping: bool,
+    /// Whether alignment lines are left out of what attracts.
+    pub(in crate::editor) ignores_lines: bool,
     /// The movement of the selection by an arrow key that the user set.
     nudge_step: Option<f64>,
     pub(in crate::editor) cycle: Cycle,
@@ -106,6 +108,7 @@ impl Hand {
             modifiers: self.modifiers,
             axis: self.axis,
             snapping: self.snapping,
+            aligning: !self.ignores_lines,
             nudge_step: self.nudge_step(),
             following: self.following,
             added: self.keeping.added(),

@@ -1,5 +1,6 @@
 //! The hand: the tool, its gesture, the selection, and the keys that are held.
 
+pub(in crate::editor) mod alignment;
 mod clean_step;
 mod cycle;
 mod drawing_plane;

@@ -8,11 +8,15 @@ use crate::document::{CurveId, Document, MatchPlace};
 use crate::editor::selection::VertexId;
 use crate::editor::view::grid::{grid_steps, ground_steps};
 use crate::editor::view::hit::REACH;
+use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::End;
 
 /// Screen points within which the grid attracts: less than vertices do.
 const GRID_REACH: f64 = 5.0;
+
+/// A place at a smaller angle from a line, in radians, lies on it.
+const ON_LINE: f64 = 1e-12;
 
 /// What goes along with a dragged point, and does not attract it.
 #[derive(Clone, Debug, Default)]
@@ -43,6 +47,37 @@ pub struct Snap {
     pub point: DVec3,
     /// Its name, in a word or two.
     pub name: String,
+    /// The alignment lines that it keeps to, in the view plane.
+    pub lines: Vec<[DVec2; 2]>,
+}
+
+impl Snap {
+    /// A snap to a point.
+    pub fn to(point: DVec3, name: impl Into<String>) -> Self {
+        Self {
+            point,
+            name: name.into(),
+            lines: Vec::new(),
+        }
+    }
+
+    /// Whether another place of the view plane lies on the alignment line, if it is one.
+    pub fn is_on_line(&self, place: DVec2) -> bool {
+        let [[from, to]] = self.lines[..] else {
+            return false;
+        };
+        let (along, other) = (to - from, place - from);
+        along.perp_dot(other).abs() <= ON_LINE * along.length() * other.length()
+    }
+
+    /// The alignment lines, as they are drawn.
+    pub fn line_marks(&self) -> impl Iterator<Item = Mark> + '_ {
+        let lines = self.lines.iter();
+        lines.map(|ends| Mark::Axis {
+            ends: *ends,
+            axis: None,
+        })
+    }
 }
 
 /// Find what a dragged place of the view plane snaps to, or `None` if nothing is near: vertices, end
@@ -61,8 +96,7 @@ pub fn snap_to_point(
         let distance = viewport.flatten(point).distance(place);
         let is_best = best.as_ref().is_none_or(|(nearest, _)| distance < *nearest);
         if distance <= reach && is_best {
-            let name = name();
-            best = Some((distance, Snap { point, name }));
+            best = Some((distance, Snap::to(point, name())));
         }
     };
     for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
@@ -124,10 +158,7 @@ pub fn snap_to_grid(place: DVec2, viewport: &Viewport) -> Option<Snap> {
         }
     };
     let near = viewport.flatten(point).distance(place) <= GRID_REACH * viewport.pixel();
-    (near && point.is_finite()).then(|| Snap {
-        point,
-        name: "Grid".to_owned(),
-    })
+    (near && point.is_finite()).then(|| Snap::to(point, "Grid"))
 }
 
 /// Constrain a movement to the nearer axis.

@@ -87,7 +87,12 @@ impl MoveDrag {
         let snap = self.snap.as_ref();
         let at = snap.map(|snap| Mark::Snap(context.viewport.flatten(snap.point)));
         let guide = self.axis_guide(context).into_iter();
-        guide.chain(at).chain(readout.map(Mark::Drag)).collect()
+        let lines = snap.into_iter().flat_map(Snap::line_marks);
+        guide
+            .chain(lines)
+            .chain(at)
+            .chain(readout.map(Mark::Drag))
+            .collect()
     }
 
     /// The line that the drag keeps to, if it keeps to one.

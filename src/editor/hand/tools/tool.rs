@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use super::settings::ToolSettings;
 use super::transformation::Transformation;
 use crate::document::{Curve, CurveId, Document, Edit, quoted};
+use crate::editor::hand::alignment;
 use crate::editor::hand::drawing_plane::DrawingPlane;
 use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::Gesture;
@@ -45,6 +46,8 @@ pub struct Context<'a> {
     pub axis: Option<usize>,
     /// Whether snapping is on; Ctrl turns it round.
     pub snapping: bool,
+    /// Whether places snap to alignment lines, too.
+    pub aligning: bool,
     /// How far an arrow key moves the selection.
     pub nudge_step: f64,
     /// How the neighbours of dragged vertices follow.
@@ -303,7 +306,7 @@ impl Context<'_> {
         let near = || {
             self.object_snap(place, carried)
                 .or_else(|| self.on_reference(place, carried))
-                .or_else(|| self.on_grid(place, carried))
+                .or_else(|| self.on_line_or_grid(place, carried))
         };
         self.snaps().then(near).flatten()
     }
@@ -320,13 +323,41 @@ impl Context<'_> {
         let intersection = self
             .hits
             .intersection(self.viewport.to_screen(place), takes);
-        let intersection = intersection.map(|point| Snap {
-            point,
-            name: "Intersection".to_owned(),
-        });
+        let intersection = intersection.map(|point| Snap::to(point, "Intersection"));
         let distance = |snap: &Snap| self.viewport.flatten(snap.point).distance(place);
         let both = point.into_iter().chain(intersection);
         both.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// The alignment lines near a place, with the crossing of the grid on them; otherwise that of the grid.
+    fn on_line_or_grid(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
+        let grid = self.on_grid(place, carried);
+        let Some(lines) = self.lined_up(place, carried) else {
+            return grid;
+        };
+        let grid = grid.filter(|grid| lines.is_on_line(self.viewport.flatten(grid.point)));
+        Some(match grid {
+            Some(grid) => Snap {
+                point: grid.point,
+                name: format!("{}, grid", lines.name),
+                ..lines
+            },
+            None => lines,
+        })
+    }
+
+    /// The alignment lines near a place of the view plane, if they are on.
+    fn lined_up(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
+        let line_up = || {
+            alignment::line_up(
+                place,
+                self.before,
+                self.selection.active(),
+                carried,
+                self.viewport,
+            )
+        };
+        self.aligning.then(line_up).flatten()
     }
 
     /// The crossing of the grid near a place of the view plane, as far as what is carried along can lie on it.
@@ -339,18 +370,21 @@ impl Context<'_> {
     /// Mark and name the snap of a place of the view plane, if there is one.
     pub fn snap_marks(&self, place: DVec2, carried: &Carried) -> Vec<Mark> {
         let snap = self.snap(place, carried);
-        let marks = snap.map(|snap| named_snap(self.viewport.flatten(snap.point), snap.name));
-        marks.into_iter().flatten().collect()
+        let mut marks = Vec::new();
+        if let Some(snap) = snap {
+            marks.extend(snap.line_marks());
+            marks.extend(named_snap(self.viewport.flatten(snap.point), snap.name));
+        }
+        marks
     }
 
     /// The point of a reference that is seen near a place of the view plane.
     fn on_reference(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
         let place = self.viewport.to_screen(place);
         let hit = self.hits.reference(place, carried.item)?;
-        Some(Snap {
-            point: self.document.shape(hit.curve)?.jet(hit.u).point,
-            name: snapping::reference_name(hit.curve, self.document),
-        })
+        let point = self.document.shape(hit.curve)?.jet(hit.u).point;
+        let name = snapping::reference_name(hit.curve, self.document);
+        Some(Snap::to(point, name))
     }
 
     /// The vertices that a transformation takes: the selected ones that can be moved, or all of the selected curves if

@@ -1,0 +1,182 @@
+//! Alignment lines: level, upright, along and across an end. A dragged place keeps to one near it, or to the crossing of
+//! two.
+
+use glam::{DVec2, DVec3};
+
+use super::snapping::{Carried, Snap};
+use crate::document::{CurveId, Document};
+use crate::editor::view::viewport::Viewport;
+use crate::geometry::End;
+
+/// Screen points within which a line attracts: less than points and the grid do.
+const REACH: f64 = 4.0;
+
+/// Screen points within which the crossing of two lines attracts.
+const CROSSING: f64 = 7.0;
+
+/// Lines at a smaller angle, by its sine, have no crossing.
+const PARALLEL: f64 = 0.2;
+
+/// A line through a point of the view plane.
+struct Line {
+    from: DVec2,
+    /// Of length 1; along an axis exactly.
+    direction: DVec2,
+    name: String,
+}
+
+impl Line {
+    /// The foot of a place on the line, exact along an axis.
+    fn foot(&self, place: DVec2) -> DVec2 {
+        match self.direction {
+            DVec2::X => DVec2::new(place.x, self.from.y),
+            DVec2::Y => DVec2::new(self.from.x, place.y),
+            direction => self.from + direction.dot(place - self.from) * direction,
+        }
+    }
+
+    /// Where two lines cross, unless they are nearly parallel.
+    fn crossing(&self, other: &Self) -> Option<DVec2> {
+        let sine = self.direction.perp_dot(other.direction);
+        if sine.abs() < PARALLEL {
+            return None;
+        }
+        let along = (other.from - self.from).perp_dot(other.direction) / sine;
+        let place = self.from + along * self.direction;
+        // On a line along an axis to the bit.
+        Some(other.foot(self.foot(place)))
+    }
+}
+
+/// Find what a dragged place of the view plane lines up with: the vertices of the `active` curve, the ends of all visible
+/// curves with their tangents and normals, targets and the origin, as far as they are on the canvas and not `carried`.
+///
+/// `None` if no line is near, or the view is turned against the model, where no axis is level.
+pub fn line_up(
+    place: DVec2,
+    document: &Document,
+    active: Option<CurveId>,
+    carried: &Carried,
+    viewport: &Viewport,
+) -> Option<Snap> {
+    viewport.orientation.axes()?;
+    let lines = lines(document, active, carried, viewport);
+    let reach = REACH * viewport.pixel();
+    let off = |line: &Line| line.foot(place).distance(place);
+    let mut near: Vec<&Line> = lines.iter().filter(|line| off(line) <= reach).collect();
+    near.sort_by(|a, b| off(a).total_cmp(&off(b)));
+    let first = *near.first()?;
+    let crossing = near.iter().find_map(|other| {
+        let at = first.crossing(other)?;
+        (at.distance(place) <= CROSSING * viewport.pixel()).then_some((at, *other))
+    });
+    let (at, lines) = match crossing {
+        Some((at, second)) => (at, vec![first, second]),
+        None => (first.foot(place), vec![first]),
+    };
+    let names: Vec<&str> = lines.iter().map(|line| line.name.as_str()).collect();
+    Some(Snap {
+        point: viewport.grounded(at),
+        name: names.join(", "),
+        lines: lines.iter().map(|line| [line.from, at]).collect(),
+    })
+}
+
+/// The lines on the canvas.
+fn lines(
+    document: &Document,
+    active: Option<CurveId>,
+    carried: &Carried,
+    viewport: &Viewport,
+) -> Vec<Line> {
+    let mut lines = Vec::new();
+    let mut add = |point: DVec3, name: &str, directions: &[(DVec2, &str)]| {
+        let from = viewport.flatten(point);
+        let on_screen = viewport.to_screen(from);
+        let is_seen = on_screen.min_element() >= 0.0 && on_screen.cmple(viewport.size).all();
+        if is_seen {
+            lines.extend(directions.iter().map(|(direction, way)| Line {
+                from,
+                direction: *direction,
+                name: format!("{way} {name}"),
+            }));
+        }
+    };
+    let level = [(DVec2::X, "level with"), (DVec2::Y, "upright with")];
+    for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
+        let polygon = &curve.polygon;
+        let feels = |index: usize| carried.vertices.contains(&(id, index));
+        if active == Some(id) {
+            for (index, vertex) in polygon.vertices().iter().enumerate() {
+                if !feels(index) && carried.item != Some(id) {
+                    add(*vertex, &format!("vertex {index}"), &level);
+                }
+            }
+        }
+        for end in End::BOTH {
+            if let Some(target) = curve.targets.get(end)
+                && carried.target != Some((id, end))
+            {
+                add(
+                    target.point,
+                    &format!("target of the {}", end.name()),
+                    &level,
+                );
+            }
+            let goes_along = carried.item == Some(id) || polygon.terminal_vertices(end).any(feels);
+            if polygon.is_periodic() || goes_along {
+                continue;
+            }
+            let jet = polygon.end_jet(end);
+            let name = format!("{} of {}", end.name(), curve.name);
+            add(jet.point, &name, &level);
+            if let Some(along) = viewport.flatten(jet.first).try_normalize() {
+                let both = [(along, "along"), (along.perp(), "across")];
+                add(jet.point, &name, &both);
+            }
+        }
+    }
+    add(DVec3::ZERO, "origin", &level);
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Curve;
+    use crate::geometry::FloatPolygon;
+
+    fn at(place: DVec2) -> Option<Snap> {
+        let points = [(10.0, 10.0), (40.0, 20.0), (70.0, 80.0), (100.0, 90.0)];
+        let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
+        let document = Document::from_curves([Curve::new("a", polygon)]);
+        let id = document.ids().next();
+        let viewport = Viewport {
+            size: DVec2::new(800.0, 600.0),
+            ..Viewport::default()
+        };
+        line_up(
+            place * viewport.pixel(),
+            &document,
+            id,
+            &Carried::default(),
+            &viewport,
+        )
+    }
+
+    #[test]
+    fn a_place_keeps_to_the_line_of_the_nearest_vertex_to_the_bit() {
+        let pixel = Viewport::default().pixel();
+        let vertex = |x: f64, y: f64| DVec2::new(x, y) / pixel;
+        let near = at(vertex(55.0, 20.0) + DVec2::new(0.0, 2.0)).expect("a line");
+        assert_eq!(
+            (near.name.as_str(), near.point.y),
+            ("level with vertex 1", 20.0)
+        );
+        assert_eq!(near.lines.len(), 1);
+        let crossing = at(vertex(10.0, 80.0) + DVec2::new(3.0, -2.0)).expect("two lines");
+        assert_eq!(crossing.point, DVec3::new(10.0, 80.0, 0.0));
+        assert_eq!(crossing.lines.len(), 2);
+        assert!(at(vertex(55.0, 50.0)).is_none());
+    }
+}
