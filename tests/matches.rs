@@ -659,9 +659,9 @@ fn a_vertex_at_a_matched_end_goes_where_it_is_dragged() {
         }
     }
     println!("{obeyed} of {tries}, others by at most {farthest}");
-    // Not by degree 4 at G3, nor the middle ones by degree 5 at G2 and G3 and 6 at G3: their neighbours would go far.
-    assert!(obeyed * 20 >= tries * 17, "{obeyed} of {tries}");
-    assert!(farthest <= 4.5 * (1.0 + 1e-9), "{farthest}");
+    // Not the middle ones by degree 4 and 5 from G1 and G2 on, nor by degree 6 at G3: their neighbours would go far.
+    assert!(obeyed * 4 >= tries * 3, "{obeyed} of {tries}");
+    assert!(farthest <= 2.6 * (1.0 + 1e-9), "{farthest}");
 }
 
 #[test]

@@ -325,7 +325,7 @@ fn a_drag_lines_up_with_vertices_and_ends() {
     script.move_to(to);
     let remarks = readout(&mut script).expect("a readout").remarks;
     assert!(
-        remarks.contains(&"level with vertex 1".to_owned()),
+        remarks.contains(&"Level with vertex 1".to_owned()),
         "{remarks:?}"
     );
     let lines = |script: &mut Script| {
@@ -342,15 +342,15 @@ fn a_drag_lines_up_with_vertices_and_ends() {
     let upright = script.at_vertex(3).x;
     script.move_to(DVec2::new(upright + 2.0, level - 2.0));
     let remarks = readout(&mut script).expect("a readout").remarks;
-    assert!(remarks[0].contains("level with vertex 1"), "{remarks:?}");
-    assert!(remarks[0].contains("upright with vertex 3"), "{remarks:?}");
+    assert!(remarks[0].contains("Level with vertex 1"), "{remarks:?}");
+    assert!(remarks[0].contains("Upright with vertex 3"), "{remarks:?}");
     assert_eq!(lines(&mut script), 2);
     // Without the switch the grid alone is left.
     script.command(Command::ToggleAlignment);
     script.move_to(to);
     let remarks = readout(&mut script).expect("a readout").remarks;
     assert!(
-        !remarks.iter().any(|it| it.contains("level")),
+        !remarks.iter().any(|it| it.contains("Level")),
         "{remarks:?}"
     );
     assert_eq!(lines(&mut script), 0);

@@ -44,7 +44,9 @@ impl Line {
         let along = (other.from - self.from).perp_dot(other.direction) / sine;
         let place = self.from + along * self.direction;
         // On a line along an axis to the bit.
-        Some(other.foot(self.foot(place)))
+        let foot = self.foot(place);
+        let is_exact = matches!(other.direction, DVec2::X | DVec2::Y);
+        Some(if is_exact { other.foot(foot) } else { foot })
     }
 }
 
@@ -102,7 +104,7 @@ fn lines(
             }));
         }
     };
-    let level = [(DVec2::X, "level with"), (DVec2::Y, "upright with")];
+    let level = [(DVec2::X, "Level with"), (DVec2::Y, "Upright with")];
     for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
         let polygon = &curve.polygon;
         let feels = |index: usize| carried.vertices.contains(&(id, index));
@@ -131,7 +133,7 @@ fn lines(
             let name = format!("{} of {}", end.name(), curve.name);
             add(jet.point, &name, &level);
             if let Some(along) = viewport.flatten(jet.first).try_normalize() {
-                let both = [(along, "along"), (along.perp(), "across")];
+                let both = [(along, "Along"), (along.perp(), "Across")];
                 add(jet.point, &name, &both);
             }
         }
@@ -146,19 +148,21 @@ mod tests {
     use crate::document::Curve;
     use crate::geometry::FloatPolygon;
 
-    fn at(place: DVec2) -> Option<Snap> {
+    /// What lines up with a place of the model, moved by some screen points.
+    fn at(place: DVec2, by: DVec2) -> Option<Snap> {
         let points = [(10.0, 10.0), (40.0, 20.0), (70.0, 80.0), (100.0, 90.0)];
         let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
         let document = Document::from_curves([Curve::new("a", polygon)]);
-        let id = document.ids().next();
         let viewport = Viewport {
-            size: DVec2::new(800.0, 600.0),
+            centre: DVec2::splat(50.0),
+            scale: 4.0,
             ..Viewport::default()
         };
+        let place = place + by * viewport.pixel();
         line_up(
-            place * viewport.pixel(),
+            place,
             &document,
-            id,
+            document.ids().next(),
             &Carried::default(),
             &viewport,
         )
@@ -166,17 +170,15 @@ mod tests {
 
     #[test]
     fn a_place_keeps_to_the_line_of_the_nearest_vertex_to_the_bit() {
-        let pixel = Viewport::default().pixel();
-        let vertex = |x: f64, y: f64| DVec2::new(x, y) / pixel;
-        let near = at(vertex(55.0, 20.0) + DVec2::new(0.0, 2.0)).expect("a line");
+        let near = at(DVec2::new(85.0, 20.0), DVec2::new(0.0, 2.0)).expect("a line");
         assert_eq!(
             (near.name.as_str(), near.point.y),
-            ("level with vertex 1", 20.0)
+            ("Level with vertex 1", 20.0)
         );
         assert_eq!(near.lines.len(), 1);
-        let crossing = at(vertex(10.0, 80.0) + DVec2::new(3.0, -2.0)).expect("two lines");
+        let crossing = at(DVec2::new(10.0, 80.0), DVec2::new(3.0, -2.0)).expect("two lines");
         assert_eq!(crossing.point, DVec3::new(10.0, 80.0, 0.0));
         assert_eq!(crossing.lines.len(), 2);
-        assert!(at(vertex(55.0, 50.0)).is_none());
+        assert!(at(DVec2::new(25.0, 30.0), DVec2::ZERO).is_none());
     }
 }

@@ -12,9 +12,10 @@ use crate::geometry::end::End;
 use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::pivoted_cholesky::PivotedCholesky;
 
-/// How far a vertex may go for each unit of the given moves; beyond, its neighbours would seem to be dragged. One dragged
-/// vertex of a curve without weights needs up to 4.2, but for the middle ones by degree 5 at G2 and G3 (7), 6 at G3 (12).
-const FARTHEST: f64 = 4.5;
+/// How far a vertex may go for each unit of the given moves; beyond, its neighbours seem to be dragged, the other way.
+/// One dragged vertex of a curve without weights needs up to 2.5, but for the middle ones where few vertices are left:
+/// by degree 4 at G1 and G2 (4), 5 at G2 and G3 (7), 6 and 8 at G3 (12, 4).
+const FARTHEST: f64 = 2.6;
 
 /// What counts as dependent among conditions of length 1. A pivot below would lose half of all digits.
 const DEPENDENT: f64 = 1e-14;
@@ -27,7 +28,7 @@ const DEPENDENT: f64 = 1e-14;
 /// weights w⁽ʳ⁾ of the vertices in the derivative r. An end that is not listed keeps the point and first
 /// derivative that it has now.
 ///
-/// `None` if no vertex moved, if the others cannot keep what is asked, or only by more than 4.5 times the moves.
+/// `None` if no vertex moved, if the others cannot keep what is asked, or only by more than 2.6 times the moves.
 pub fn with_kept_jets(
     polygon: &FloatPolygon,
     before: &FloatPolygon,
@@ -278,13 +279,13 @@ mod tests {
         }
         // All but those that leave too few vertices, or would send others far.
         println!("{kept_all}");
-        assert!(kept_all >= 400, "{kept_all}");
+        assert!(kept_all >= 350, "{kept_all}");
     }
 
     #[test]
     fn a_short_curve_keeps_both_ends() {
         let before = wave(4, 9, false);
-        let moved = moved(&before, 2, DVec3::new(0.0, 0.5, 0.0));
+        let moved = moved(&before, 3, DVec3::new(0.0, 0.5, 0.0));
         let kept = with_kept_jets(&moved, &before, &[(End::Start, Continuity::G2)], &[6]);
         let kept = kept.expect("there are enough vertices");
         assert_eq!(kept.vertex(6), before.vertex(6));

@@ -3,8 +3,12 @@
 use glam::{DVec2, DVec3};
 
 use super::tool::Context;
+use crate::document::CurveId;
 use crate::editor::hand::snapping::{Carried, Snap, along_axis};
 use crate::editor::view::scene::{DragReadout, Mark};
+
+/// A dragged point that is farther from the pointer, in screen points, is held back.
+const LAG: f64 = 2.0;
 
 /// The state of a drag that moves something. Places are those of the view plane.
 #[derive(Debug)]
@@ -55,9 +59,22 @@ impl MoveDrag {
         self.by
     }
 
-    /// By how much it is dragged in the view plane.
-    pub fn by(&self) -> DVec2 {
-        self.by
+    /// Why a point of a curve is not where it is dragged, if a match does that.
+    pub fn lag(
+        &self,
+        curve: CurveId,
+        [from, to]: [DVec3; 2],
+        planar: bool,
+        context: &Context,
+    ) -> Option<&'static str> {
+        let is_matched = context.document.matches().any(|it| it.curve == curve);
+        let wanted = context
+            .viewport
+            .flatten(from + context.movement(self.by, planar));
+        let off = wanted.distance(context.viewport.flatten(to));
+        let lags =
+            is_matched && context.held_back.is_none() && off > LAG * context.viewport.pixel();
+        lags.then_some("The match holds it back")
     }
 
     /// Tell of a point that was dragged from somewhere to somewhere, with a remark and what the drag adds, or why it

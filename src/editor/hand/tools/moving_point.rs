@@ -131,7 +131,10 @@ impl MovingPoint {
         let curve = context.document.curve(self.curve);
         let now = curve.and_then(|curve| position(&curve.polygon, self.point.kind));
         let readout = now.map(|now| {
-            let remark = self.words(context);
+            let lag = self
+                .drag
+                .lag(self.curve, [self.from, now], self.planar, context);
+            let remark = lag.map(str::to_owned).or_else(|| self.words(context));
             self.drag
                 .readout([self.from, now], !self.planar, remark, context)
         });

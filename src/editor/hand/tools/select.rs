@@ -28,9 +28,6 @@ const LEG_REACH: f64 = 0.5 * REACH;
 /// How much nearer than the curve a leg must be to take a press, in screen points: legs hug fair curves.
 const CLEARLY: f64 = 3.0;
 
-/// A dragged vertex that is farther from the pointer, in screen points, is held back.
-const LAG: f64 = 2.0;
-
 /// The shortest comb that a drag of a tip makes, by what it was: one that nobody sees is not found again.
 const SHORTEST: f64 = 0.05;
 
@@ -87,22 +84,11 @@ impl Moving {
         };
         let ends = vertex(context.before).zip(vertex(context.document));
         let in_space = !self.planar.contains(&id);
-        let lag = ends.and_then(|ends| self.lag(ends, context));
+        let lag = ends.and_then(|(from, to)| self.drag.lag(id, [from, to], !in_space, context));
         let remark = lag.map(str::to_owned).or_else(|| context.following.words());
         let readout =
             ends.map(|(from, to)| self.drag.readout([from, to], in_space, remark, context));
         self.drag.marks(readout, context)
-    }
-
-    /// Why the vertex under the pointer is not where it is dragged, if a match does that.
-    fn lag(&self, (from, to): (DVec3, DVec3), context: &Context) -> Option<&'static str> {
-        let (id, _) = self.grip;
-        let is_matched = context.document.matches().any(|it| it.curve == id);
-        let wanted = from + context.movement(self.drag.by(), self.planar.contains(&id));
-        let [wanted, to] =
-            [wanted, to].map(|it| context.viewport.to_screen(context.viewport.flatten(it)));
-        let lags = is_matched && context.held_back.is_none() && wanted.distance(to) > LAG;
-        lags.then_some("The match holds it back")
     }
 }
 

@@ -339,7 +339,7 @@ impl Context<'_> {
         Some(match grid {
             Some(grid) => Snap {
                 point: grid.point,
-                name: format!("{}, grid", lines.name),
+                name: format!("{}, Grid", lines.name),
                 ..lines
             },
             None => lines,
