@@ -1,7 +1,7 @@
 //! Aligning and distributing what is selected.
 
 use crate::editor::hand::tools::Transformed;
-use crate::editor::reply::{Note, Reply};
+use crate::editor::reply::{Note, Reply, with_lines};
 use crate::editor::{Arrangement, Editor, Refusal};
 use crate::geometry::counted;
 
@@ -20,6 +20,12 @@ pub(super) fn arrange(editor: &mut Editor, arrangement: Arrangement) -> Reply {
     let edits = arrangement.edits(&items, &context);
     let edits = edits.map_err(|error| Refusal(error.to_string()))?;
     let staying = context.staying();
-    let reply = editor.apply(arrangement.label(), edits)?;
-    Ok(staying.map_or(reply, Note::done))
+    let note = editor.apply(arrangement.label(), edits)?;
+    Ok(match staying {
+        Some(staying) => Note {
+            warns: note.warns,
+            ..Note::done(with_lines(note.text, &staying))
+        },
+        None => note,
+    })
 }

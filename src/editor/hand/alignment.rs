@@ -17,6 +17,9 @@ const CROSSING: f64 = 7.0;
 /// Lines at a smaller angle, by its sine, have no crossing.
 const PARALLEL: f64 = 0.2;
 
+/// The lines along the axes through a point.
+const LEVEL: [(DVec2, &str); 2] = [(DVec2::X, "Level with"), (DVec2::Y, "Upright with")];
+
 /// A line through a point of the view plane.
 struct Line {
     from: DVec2,
@@ -62,15 +65,13 @@ pub fn line_up(
     viewport: &Viewport,
 ) -> Option<Snap> {
     viewport.orientation.axes()?;
-    let lines = lines(document, active, carried, viewport);
-    let reach = REACH * viewport.pixel();
+    let mut near = lines_near(place, document, active, carried, viewport);
     let off = |line: &Line| line.foot(place).distance(place);
-    let mut near: Vec<&Line> = lines.iter().filter(|line| off(line) <= reach).collect();
     near.sort_by(|a, b| off(a).total_cmp(&off(b)));
-    let first = *near.first()?;
+    let first = near.first()?;
     let crossing = near.iter().find_map(|other| {
         let at = first.crossing(other)?;
-        (at.distance(place) <= CROSSING * viewport.pixel()).then_some((at, *other))
+        (at.distance(place) <= CROSSING * viewport.pixel()).then_some((at, other))
     });
     let (at, lines) = match crossing {
         Some((at, second)) => (at, vec![first, second]),
@@ -84,34 +85,39 @@ pub fn line_up(
     })
 }
 
-/// The lines on the canvas.
-fn lines(
+/// The lines near a place through points on the canvas. Only they get names, as there may be many points.
+fn lines_near(
+    place: DVec2,
     document: &Document,
     active: Option<CurveId>,
     carried: &Carried,
     viewport: &Viewport,
 ) -> Vec<Line> {
+    let reach = REACH * viewport.pixel();
     let mut lines = Vec::new();
-    let mut add = |point: DVec3, name: &str, directions: &[(DVec2, &str)]| {
+    let mut add = |point: DVec3, directions: &[(DVec2, &str)], name: &dyn Fn() -> String| {
         let from = viewport.flatten(point);
         let on_screen = viewport.to_screen(from);
         let is_seen = on_screen.min_element() >= 0.0 && on_screen.cmple(viewport.size).all();
-        if is_seen {
-            lines.extend(directions.iter().map(|(direction, way)| Line {
-                from,
-                direction: *direction,
-                name: format!("{way} {name}"),
-            }));
+        for (direction, way) in directions {
+            let off = direction.perp_dot(place - from).abs();
+            if is_seen && off <= reach {
+                lines.push(Line {
+                    from,
+                    direction: *direction,
+                    name: format!("{way} {}", name()),
+                });
+            }
         }
     };
-    let level = [(DVec2::X, "Level with"), (DVec2::Y, "Upright with")];
     for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
         let polygon = &curve.polygon;
-        let feels = |index: usize| carried.vertices.contains(&(id, index));
+        let goes_along = carried.item == Some(id);
+        let feels = |index: usize| goes_along || carried.vertices.contains(&(id, index));
         if active == Some(id) {
             for (index, vertex) in polygon.vertices().iter().enumerate() {
-                if !feels(index) && carried.item != Some(id) {
-                    add(*vertex, &format!("vertex {index}"), &level);
+                if !feels(index) {
+                    add(*vertex, &LEVEL, &|| format!("vertex {index}"));
                 }
             }
         }
@@ -119,26 +125,23 @@ fn lines(
             if let Some(target) = curve.targets.get(end)
                 && carried.target != Some((id, end))
             {
-                add(
-                    target.point,
-                    &format!("target of the {}", end.name()),
-                    &level,
-                );
+                add(target.point, &LEVEL, &|| {
+                    format!("target of the {}", end.name())
+                });
             }
-            let goes_along = carried.item == Some(id) || polygon.terminal_vertices(end).any(feels);
-            if polygon.is_periodic() || goes_along {
+            if polygon.is_periodic() || polygon.terminal_vertices(end).any(feels) {
                 continue;
             }
             let jet = polygon.end_jet(end);
-            let name = format!("{} of {}", end.name(), curve.name);
-            add(jet.point, &name, &level);
+            let name = || format!("{} of {}", end.name(), curve.name);
+            add(jet.point, &LEVEL, &name);
             if let Some(along) = viewport.flatten(jet.first).try_normalize() {
                 let both = [(along, "Along"), (along.perp(), "Across")];
-                add(jet.point, &name, &both);
+                add(jet.point, &both, &name);
             }
         }
     }
-    add(DVec3::ZERO, "origin", &level);
+    add(DVec3::ZERO, &LEVEL, &|| "origin".to_owned());
     lines
 }
 

@@ -108,7 +108,7 @@ impl Hand {
             modifiers: self.modifiers,
             axis: self.axis,
             snapping: self.snapping,
-            aligning: !self.ignores_lines,
+            ignores_lines: self.ignores_lines,
             nudge_step: self.nudge_step(),
             following: self.following,
             added: self.keeping.added(),

@@ -1,5 +1,7 @@
 //! Alignments and even distances of several vertices, or of several curves and references.
 
+use std::collections::BTreeMap;
+
 use super::tool::Context;
 use super::transformed::{Part, Transformed};
 use crate::document::Edit;
@@ -93,17 +95,13 @@ impl Arrangement {
         let plane = DrawingPlane::of(context.viewport);
         let axis = self.axis();
         let parts = items.parts();
-        let extents: Vec<[f64; 2]> = parts
-            .iter()
-            .map(|part| items.extent(*part, plane.axis(axis), context))
-            .collect();
+        let extents = items.extents(plane.axis(axis), context);
         let places = self.places(&extents);
-        let moves = parts.iter().zip(extents).zip(places);
-        let moves = moves.map(|((part, [low, _]), place)| (*part, low, place));
-        let moves: Vec<(Part, f64, f64)> = moves.collect();
+        let moves = extents.iter().zip(places);
+        let moves = moves.map(|([low, _], place)| (*low, place));
+        let moves: BTreeMap<Part, (f64, f64)> = parts.into_iter().zip(moves).collect();
         items.placed_by(|part, at| {
-            let own = moves.iter().find(|(other, ..)| *other == part);
-            let Some((_, low, place)) = own else {
+            let Some((low, place)) = moves.get(&part) else {
                 return at;
             };
             let mut coordinates = plane.flatten(at);

@@ -46,8 +46,8 @@ pub struct Context<'a> {
     pub axis: Option<usize>,
     /// Whether snapping is on; Ctrl turns it round.
     pub snapping: bool,
-    /// Whether places snap to alignment lines, too.
-    pub aligning: bool,
+    /// Whether alignment lines are left out of what attracts.
+    pub ignores_lines: bool,
     /// How far an arrow key moves the selection.
     pub nudge_step: f64,
     /// How the neighbours of dragged vertices follow.
@@ -357,7 +357,7 @@ impl Context<'_> {
                 self.viewport,
             )
         };
-        self.aligning.then(line_up).flatten()
+        (!self.ignores_lines).then(line_up).flatten()
     }
 
     /// The crossing of the grid near a place of the view plane, as far as what is carried along can lie on it.

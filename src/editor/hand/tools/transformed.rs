@@ -1,6 +1,6 @@
 //! The items of a transformation: vertices, or curves and references as a whole.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DQuat, DVec2, DVec3};
 
@@ -15,7 +15,7 @@ use crate::geometry::{ParametricCurve, counted, extent};
 use crate::io::counted_items;
 
 /// What moves without changing its shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
     /// A vertex of its own.
     Vertex(VertexId),
@@ -89,20 +89,21 @@ impl Transformed {
         }
     }
 
-    /// How far a part reaches along a direction.
-    pub(super) fn extent(&self, part: Part, direction: DVec3, context: &Context) -> [f64; 2] {
-        let none = [0.0; 2];
-        match part {
-            Part::Vertex(vertex) => {
-                let mut own = self.vertices.iter().filter(|(id, _)| *id == vertex);
-                own.next().map_or(none, |(_, at)| [direction.dot(*at); 2])
-            }
-            Part::Item(id) => match (context.before.curve(id), context.before.reference(id)) {
-                (Some(curve), _) => extent(&curve.polygon, direction),
-                (_, Some(reference)) => extent(&reference.curve, direction),
-                _ => none,
+    /// How far each part reaches along a direction.
+    pub(super) fn extents(&self, direction: DVec3, context: &Context) -> Vec<[f64; 2]> {
+        let places: BTreeMap<VertexId, DVec3> = self.vertices.iter().copied().collect();
+        let reach = |part: &Part| match part {
+            Part::Vertex(vertex) => places.get(vertex).map(|at| [direction.dot(*at); 2]),
+            Part::Item(id) => match (context.before.curve(*id), context.before.reference(*id)) {
+                (Some(curve), _) => Some(extent(&curve.polygon, direction)),
+                (_, reference) => reference.map(|it| extent(&it.curve, direction)),
             },
-        }
+        };
+        let parts = self.parts();
+        parts
+            .iter()
+            .map(|it| reach(it).unwrap_or_default())
+            .collect()
     }
 
     /// The edits that take each part to a place: `to` tells it of each vertex or origin of a part.
