@@ -124,6 +124,32 @@ fn a_target_is_picked_at_each_level_from_an_end_or_a_point() {
 }
 
 #[test]
+fn a_match_raised_level_by_level_warns_where_it_bends() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G1, true);
+    let mut warned = 0;
+    for level in [Continuity::G2, Continuity::G3] {
+        let before = script.editor.document().clone();
+        script.end_fit_action(EndFitAction::SetContinuity(level));
+        let documents = [&before, script.editor.document()];
+        let (text, bends) = batten::operations::matched(&ids, documents);
+        let message = script.editor.message();
+        assert_eq!(
+            message.is_some_and(|it| it.warns),
+            bends,
+            "{level:?}: {text}"
+        );
+        if bends {
+            let message = message.expect("a message");
+            assert!(message.text.contains(&text), "{}", message.text);
+            assert!(message.offers_undo);
+            warned += 1;
+        }
+    }
+    assert!(warned > 0);
+}
+
+#[test]
 fn a_live_match_follows_a_drag_of_the_other_curve_within_its_step() {
     for level in Continuity::ALL {
         let (mut script, ids) = script();

@@ -4,7 +4,7 @@ use crate::document::{Curve, CurveId, Document, Edit, EndMatch, quoted};
 use crate::editor::Editor;
 use crate::editor::hand::end_fit::{EndFitAction, EndFitSettings};
 use crate::editor::operating::EndFitStep;
-use crate::editor::reply::{Note, Refusal, Reply};
+use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::view::layers::{Layer, Layers};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{Continuity, End};
@@ -58,6 +58,10 @@ impl Editor {
         // An action that changed nothing leaves the last one.
         if !is_pending && (reply.is_err() || self.workspace.revision() != revision) {
             self.operating().keep_end_fit_action(step, &reply);
+        }
+        // The last lines of the panel may lie below its edge.
+        if !is_pending && reply.as_ref().is_ok_and(|note| note.warns) {
+            self.message = Message::of(&reply);
         }
         reply
     }
