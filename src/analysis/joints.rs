@@ -7,7 +7,6 @@ use glam::DVec3;
 use super::cache::AnalysisCache;
 use super::item::Item;
 use crate::document::{CurveId, Document, Edit, EndMatch, MatchPlace};
-use crate::geometry::references::ReferenceForm;
 use crate::geometry::{Continuity, End, Jet, Joint};
 
 /// The distance within which ends meet, by the length of the longest curve, unless the user gives one.
@@ -229,7 +228,7 @@ impl EndsOf {
     /// The ends of a curve or a reference; `None` if it has none, as points and what is closed.
     fn find(document: &Document, analyses: &AnalysisCache, id: CurveId) -> Option<Self> {
         let reference = document.reference(id);
-        if reference.is_some_and(|it| matches!(it.curve.form(), ReferenceForm::Points(_))) {
+        if reference.is_some_and(|it| !it.curve.form().is_smooth()) {
             return None;
         }
         let shape = document.shape(id)?;

@@ -140,6 +140,7 @@ impl Application {
         let is_wanted = outcome.reached || self.best;
         if is_wanted {
             let document = outcome.applied_to(input.document())?;
+            let document = self.destination.placed(document);
             let export = format.write(&document, None);
             let export = export.with_context(|| self.destination.name())?;
             self.destination.write(export, messages)?;

@@ -62,6 +62,7 @@ impl Conversion {
     fn written(&self, document: Document, destination: &Destination) -> anyhow::Result<Export> {
         let format = destination.format()?;
         let place = || destination.name();
+        let document = destination.placed(document);
         match self.export.choice(format, &document)? {
             None => {
                 let document = self.lowered(document, None)?;

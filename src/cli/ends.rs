@@ -132,6 +132,14 @@ pub(super) enum Destination {
 }
 
 impl Destination {
+    /// Name the pictures of a document from the folder that it is written to.
+    pub(super) fn placed(&self, document: Document) -> Document {
+        match self {
+            Self::Standard(_) => document,
+            Self::File(path, _) => disk::beside_pictures(document, path),
+        }
+    }
+
     /// Name a destination; the standard output is one only if its format is given.
     pub(super) fn new(path: PathBuf, format: Option<&'static Format>) -> Option<Self> {
         if path.as_os_str() == STANDARD {

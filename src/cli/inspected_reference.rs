@@ -120,6 +120,11 @@ fn parameters(form: &ReferenceForm) -> Map<String, Value> {
             given.collect()
         }
         ReferenceForm::Points(_) => Map::new(),
+        ReferenceForm::Frame(frame) => {
+            let size = [("width", frame.size().x), ("height", frame.size().y)].into_iter();
+            size.map(|(name, value)| (name.to_owned(), json!(value)))
+                .collect()
+        }
         ReferenceForm::Nurbs(nurbs) => {
             let points = nurbs.points().iter().map(|it| it.to_array());
             let points: Vec<[f64; 3]> = points.collect();

@@ -1,6 +1,7 @@
 //! A document: an ordered list of curves, and one of references.
 
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::curve::{Curve, CurveId};
@@ -8,6 +9,7 @@ use super::end_match::EndMatch;
 use super::extras::Extras;
 use super::group::Group;
 use super::names::free_name;
+use super::picture::{Picture, PictureSource};
 use super::reference::Reference;
 use crate::geometry::ParametricCurve;
 use crate::geometry::expressions::LengthUnit;
@@ -115,6 +117,36 @@ impl Document {
     pub fn references(&self) -> impl ExactSizeIterator<Item = (CurveId, &Arc<Reference>)> {
         let references = self.references.iter();
         references.map(|(id, reference)| (*id, reference))
+    }
+
+    /// Give the files of pictures other paths.
+    #[must_use]
+    pub fn with_picture_files(mut self, path: impl Fn(&Path) -> PathBuf) -> Self {
+        for (_, reference) in &mut self.references {
+            let Some(picture) = &reference.picture else {
+                continue;
+            };
+            if let PictureSource::File(file) = &picture.source {
+                let source = PictureSource::File(path(file));
+                let opacity = picture.opacity;
+                let moved = Picture {
+                    opacity,
+                    ..Picture::new(source, picture.pixels)
+                };
+                Arc::make_mut(reference).picture = Some(moved);
+            }
+        }
+        self
+    }
+
+    /// The document without its pictures, and their names.
+    pub fn without_pictures(&self) -> (Self, Vec<String>) {
+        let mut document = self.clone();
+        let is_picture = |it: &Reference| it.picture.is_some();
+        let pictures = self.references().filter(|(_, it)| is_picture(it));
+        let names = pictures.map(|(_, it)| it.name.clone()).collect();
+        document.references.retain(|(_, it)| !is_picture(it));
+        (document, names)
     }
 
     /// Find a reference.

@@ -10,6 +10,7 @@ use super::document::Document;
 use super::end_match::EndMatch;
 use super::error::EditError;
 use super::group::Group;
+use super::picture::Picture;
 use super::reference::Reference;
 use super::renumbering::Renumbering;
 use crate::geometry::end_correction::EndTarget;
@@ -139,6 +140,13 @@ pub enum Edit {
         /// The new curve, where it is placed.
         curve: ReferenceCurve,
     },
+    /// Give the frame of a picture another picture, or the same one with another opacity. Locked ones too.
+    SetPicture {
+        /// The reference with the frame.
+        reference: CurveId,
+        /// The new picture.
+        picture: Picture,
+    },
     /// Remove a curve, with the matches of its ends and to it, or a reference, with the matches to it.
     Remove(CurveId),
     /// Put a curve at another place among the curves, or a reference among the references.
@@ -251,6 +259,12 @@ impl Document {
                 Ok(())
             }
             Edit::SetReference { reference, curve } => self.set_reference(reference, curve),
+            Edit::SetPicture { reference, picture } => {
+                let index = self.reference_position(reference);
+                let index = index.ok_or(EditError::NoSuchCurve)?;
+                Arc::make_mut(&mut self.references[index].1).picture = Some(picture);
+                Ok(())
+            }
             Edit::Remove(curve) => {
                 match (self.position(curve), self.reference_position(curve)) {
                     (Some(index), _) => drop(self.curves.remove(index)),

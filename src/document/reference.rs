@@ -6,6 +6,7 @@ use super::curve::Colour;
 use super::error::EditError;
 use super::extras::Extras;
 use super::group::Group;
+use super::picture::Picture;
 use crate::geometry::references::{ReferenceCurve, ReferenceForm};
 
 /// Hold a reference: its curve or its points, which no vertices edit, and what the user calls it.
@@ -23,6 +24,8 @@ pub struct Reference {
     pub locked: bool,
     /// Its curve, where it is placed.
     pub curve: ReferenceCurve,
+    /// The picture in its frame, if the curve is one.
+    pub picture: Option<Picture>,
     /// What its file said of it that this program does not know. Every edit keeps it; copies have
     /// none.
     pub extras: Extras,
@@ -38,6 +41,7 @@ impl Reference {
             visible: true,
             locked: false,
             curve,
+            picture: None,
             extras: Extras::default(),
         }
     }
@@ -45,6 +49,26 @@ impl Reference {
     /// Put the reference into a group.
     pub fn in_group(self, group: Group) -> Self {
         Self { group, ..self }
+    }
+
+    /// Show a picture in its frame.
+    pub fn with_picture(self, picture: Picture) -> Self {
+        let picture = Some(picture);
+        Self { picture, ..self }
+    }
+
+    /// The picture with the lower left corner of its frame, and the vectors along its lower and its left side.
+    pub fn framed(&self) -> Option<(&Picture, [DVec3; 3])> {
+        let ReferenceForm::Frame(frame) = self.curve.form() else {
+            return None;
+        };
+        let (size, placement) = (frame.size(), self.curve.placement());
+        let sides = [size.x * DVec3::X, size.y * DVec3::Y].map(|side| placement.vector(side));
+        let [across, up] = sides;
+        Some((
+            self.picture.as_ref()?,
+            [placement.translation(), across, up],
+        ))
     }
 
     /// The points where they are placed, if it is a list of points.

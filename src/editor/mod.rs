@@ -18,7 +18,10 @@ mod workspace;
 use std::time::Duration;
 
 pub use commands::drawing::end_drawing;
-pub use commands::{Command, CopyForm, ReferenceChange, Shortcut};
+pub use commands::{
+    Command, CopyForm, PICTURE_PLANES, PictureChange, ReferenceChange, Shortcut,
+    measured_direction, picture_plane,
+};
 pub use dispatch::MenuOf;
 pub use hand::{
     Arrangement, Button, Cursor, DrawSettings, DrawWay, EndFitAction, EndFitReport, EndNoise,
@@ -29,6 +32,7 @@ pub use jobs::edited_file::EditedFile;
 pub use jobs::exporting::ExportForecast;
 pub use jobs::file_reading::{ColumnQuestion, FileAnswer, FoundFile, ImportQuestion};
 pub use jobs::filing::{FileReply, Filing, is_project};
+pub use jobs::pyramid::{PictureLevel, PictureTile, Pyramid, TILE};
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, Recovery, with_extension};
 pub use operating::{FittedPoints, Operating, OperationInProgress, OtherResult, Run};
 pub use reply::{Message, Note, Refusal, Reply, told};
@@ -38,9 +42,9 @@ pub use view::{
     Bounds, ChainOutlines, ClampedMark, CombSettings, CombsOf, CurvatureDisplay, CurveOutlines,
     CurveScene, DragReadout, EndFitMarks, EvoluteCrowd, FeatureKind, FeatureMark, FeatureReport,
     FeatureRow, GAP, GroundGrid, GuideLabel, GuideScene, HoverScene, Layer, LayerRow, LayerSample,
-    Layers, Legs, Look, LossArrow, Mark, MeasuredFigure, NamedView, Orientation, PieceTrend,
-    PlotBand, PlotKind, PlotScene, REACH, Scene, Sight, VertexMark, View, ViewBox, Viewport,
-    Whiskers, grid_steps, ground_grid, view_name,
+    Layers, Legs, Look, LossArrow, Mark, MeasuredFigure, NamedView, Orientation, PictureScene,
+    PieceTrend, PlotBand, PlotKind, PlotScene, REACH, Scene, Sight, VertexMark, View, ViewBox,
+    Viewport, Whiskers, grid_steps, ground_grid, view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 

@@ -11,6 +11,7 @@ mod bezier_matrix;
 mod blend;
 mod coefficient;
 mod continuity;
+mod contrast_edge;
 mod control_polygon;
 mod conversion;
 mod crossing;
@@ -70,6 +71,7 @@ mod wording;
 
 pub use arc_length::arc_length_between;
 pub use continuity::Continuity;
+pub use contrast_edge::nearest_edge;
 pub use control_polygon::{ControlPolygon, MAX_MAGNITUDE};
 pub use conversion::{
     Amplification, Approximation, BezierPolygon, ClampedPolygon, ExactPolygon, MAX_ADDED_SEGMENTS,

@@ -6,7 +6,7 @@
 use std::fmt;
 use std::fs::{self, File, Metadata, TryLockError};
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
@@ -19,7 +19,7 @@ use super::loss::{Export, LossReport};
 use super::original::Original;
 use super::reading::Reading;
 use super::table_columns::ColumnChoice;
-use crate::document::Document;
+use crate::document::{Document, PictureSource};
 use crate::geometry::PolygonKind;
 
 /// The most bytes that are read: far more than any curve, far less than fills the memory.
@@ -57,7 +57,8 @@ pub fn read_with_fingerprint(
     let format = format.map_err(FileError::at(path))?;
     let bytes = read_bytes(path).map_err(FileError::at(path))?;
     let reading = format.read_columns(&bytes, choice);
-    let reading = reading.map_err(FileError::at(path))?;
+    let mut reading = reading.map_err(FileError::at(path))?;
+    place_pictures(&mut reading, path, format);
     Ok((reading, Fingerprint::of(&bytes)))
 }
 
@@ -174,8 +175,67 @@ pub fn write_document(
     polygon: Option<PolygonKind>,
 ) -> Result<Saved, FileError> {
     let format = formats::to_write(path).map_err(FileError::at(path))?;
-    let export = format.write(document, polygon);
+    let document = beside_pictures(document.clone(), path);
+    let export = format.write(&document, polygon);
     write_export(path, export.map_err(FileError::at(path))?)
+}
+
+/// Name the pictures of a document from the folder of its file.
+pub fn beside_pictures(document: Document, path: &Path) -> Document {
+    let folder = home_of(path);
+    // Between drives there is no relative path.
+    let relative = |file: &Path| pathdiff::diff_paths(file, &folder).unwrap_or(file.to_owned());
+    document.with_picture_files(relative)
+}
+
+/// Give the pictures of a file absolute paths: a project names them from its folder, and a picture is its own file.
+fn place_pictures(reading: &mut Reading, path: &Path, format: &Format) {
+    let folder = home_of(path);
+    for reference in &mut reading.references {
+        let Some(picture) = &mut reference.picture else {
+            continue;
+        };
+        match &picture.source {
+            PictureSource::File(file) => {
+                picture.source = PictureSource::File(normal(&folder.join(file)));
+            }
+            PictureSource::Embedded(_) if !format.holds_documents => {
+                let name = path.file_name().unwrap_or_default();
+                let stem = path.file_stem().unwrap_or(name);
+                reference.name = stem.to_string_lossy().into_owned();
+                picture.source = PictureSource::File(folder.join(name));
+            }
+            PictureSource::Embedded(_) => {}
+        }
+    }
+}
+
+/// The absolute folder of a file, even of one that is not there yet.
+fn home_of(path: &Path) -> PathBuf {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let folder = path.parent().unwrap_or(&path);
+    canonical(folder).unwrap_or_else(|| folder.to_owned())
+}
+
+/// The path without steps back.
+fn normal(path: &Path) -> PathBuf {
+    let mut normal = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::ParentDir => drop(normal.pop()),
+            Component::CurDir => {}
+            part => normal.push(part),
+        }
+    }
+    normal
+}
+
+/// Read the bytes of a picture's file.
+///
+/// # Errors
+/// [`FileError`], naming the file.
+pub fn read_picture(path: &Path) -> Result<Vec<u8>, FileError> {
+    read_bytes(path).map_err(FileError::at(path))
 }
 
 /// Write an export to a file.

@@ -130,6 +130,9 @@ pub enum Problem {
     /// The file has no content.
     #[error("the file is empty")]
     Empty,
+    /// A picture cannot be read.
+    #[error("the picture cannot be read: {0}")]
+    Picture(String),
     /// The file is not text in UTF-8.
     #[error("the file is not text in UTF-8 here: save it as UTF-8")]
     NotUtf8,

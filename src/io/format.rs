@@ -6,7 +6,7 @@ use std::hash::{Hash, Hasher};
 use super::error::{Place, Problem, ReadError, WriteError};
 use super::exchange::changes::Rewriter;
 use super::exchange::drawing::{Drawing, Unreadable};
-use super::loss::{Export, LossReport};
+use super::loss::{Export, Loss, LossReport};
 use super::reading::Reading;
 use super::table_columns::ColumnChoice;
 use crate::document::Document;
@@ -208,11 +208,18 @@ impl Format {
         writing: &Writing,
     ) -> Result<Export, WriteError> {
         let mut losses = LossReport::new(self.name);
-        let bytes = write(document, writing, &mut losses)?;
-        if !self.holds_documents {
-            losses.add_matches(document, |_| true);
-            losses.project_keys = !document.extras().is_empty();
+        if self.holds_documents {
+            let bytes = write(document, writing, &mut losses)?;
+            return Ok(Export { bytes, losses });
         }
+        let (document, pictures) = &document.without_pictures();
+        let bytes = write(document, writing, &mut losses)?;
+        let pictures = pictures.iter().cloned();
+        losses
+            .losses
+            .extend(pictures.map(|name| (name, Loss::Reference)));
+        losses.add_matches(document, |_| true);
+        losses.project_keys = !document.extras().is_empty();
         Ok(Export { bytes, losses })
     }
 }

@@ -7,12 +7,13 @@ use super::error::FormatError;
 use super::exchange::formats::{BREP, CURVE_JSON, GLIF, IGES, OBJ, STEP, STEP_AP242, SVG, THREEDM};
 use super::format::{Exporter, Format};
 use super::gpx::GPX;
+use super::picture::PICTURE;
 use super::point_table::POINT_TABLE;
 use super::project::PROJECT;
 use super::table::{TAB_TABLE, TABLE};
 
 /// Every format, in the order of dialogs and menus.
-pub static FORMATS: [&Format; 15] = [
+pub static FORMATS: [&Format; 16] = [
     &PROJECT,
     &TABLE,
     &TAB_TABLE,
@@ -28,6 +29,7 @@ pub static FORMATS: [&Format; 15] = [
     &OBJ,
     &BREP,
     &CURVE_JSON,
+    &PICTURE,
 ];
 
 /// List the formats that can be read: all of them.

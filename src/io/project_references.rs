@@ -2,16 +2,18 @@
 
 use std::collections::BTreeMap;
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use glam::{DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::error::{Place, Problem, ReadError};
 use super::object::Object;
 use super::project_values::{self, ByName, Coordinates};
-use crate::document::{Colour, Group, Reference};
+use crate::document::{Colour, Group, Picture, PictureSource, Reference};
 use crate::geometry::references::{
-    AnalyticForm, Formula, KINDS, Nurbs, Placement, PointList, ReferenceCurve, ReferenceError,
-    ReferenceForm, ReferenceKind, find,
+    AnalyticForm, Formula, Frame, KINDS, Nurbs, Placement, PointList, ReferenceCurve,
+    ReferenceError, ReferenceForm, ReferenceKind, find,
 };
 
 /// A reference: a kind with its values, formulas, or points, each over an interval and placed.
@@ -50,6 +52,9 @@ pub(super) struct ProjectReference {
     /// Whether its file calls a B-spline periodic.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     periodic: Option<bool>,
+    /// The picture in the frame that the points are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    picture: Option<FilePicture>,
     /// The interval of the parameter t.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     interval: Option<[f64; 2]>,
@@ -72,6 +77,64 @@ struct FileFormula {
     z: Option<String>,
 }
 
+/// A picture: the path of its file, relative to the project's folder, or its bytes in base 64.
+#[derive(Deserialize, Serialize)]
+#[serde(expecting = "a picture: a JSON object with a file or data, and pixels")]
+struct FilePicture {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    file: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    data: Option<String>,
+    pixels: [u32; 2],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    opacity: Option<f64>,
+}
+
+impl From<&Picture> for FilePicture {
+    fn from(picture: &Picture) -> Self {
+        let (file, data) = match &picture.source {
+            // A slash divides names on every system.
+            PictureSource::File(path) => (Some(path.to_string_lossy().replace('\\', "/")), None),
+            PictureSource::Embedded(bytes) => (None, Some(BASE64_STANDARD.encode(bytes))),
+        };
+        Self {
+            file,
+            data,
+            pixels: picture.pixels,
+            opacity: (picture.opacity != Picture::OPACITY).then_some(picture.opacity),
+        }
+    }
+}
+
+impl TryFrom<FilePicture> for Picture {
+    type Error = Problem;
+
+    fn try_from(found: FilePicture) -> Result<Self, Problem> {
+        let source = match (found.file, found.data) {
+            (Some(file), None) => PictureSource::File(file.into()),
+            (None, Some(data)) => {
+                let bytes = BASE64_STANDARD.decode(data);
+                let bytes = bytes.map_err(|error| Problem::Picture(error.to_string()))?;
+                PictureSource::Embedded(bytes.into())
+            }
+            _ => return Err(Problem::Picture("“file” or “data” is needed".to_owned())),
+        };
+        let opacity = found.opacity.unwrap_or(Self::OPACITY);
+        if !(0.0..=1.0).contains(&opacity) {
+            return Err(Problem::Picture(format!(
+                "the opacity {opacity} is not from 0 to 1"
+            )));
+        }
+        if found.pixels.contains(&0) {
+            return Err(Problem::Picture("it has no pixels".to_owned()));
+        }
+        Ok(Self {
+            opacity,
+            ..Self::new(source, found.pixels)
+        })
+    }
+}
+
 impl ProjectReference {
     /// Write a reference.
     pub(super) fn of<V>(reference: &Reference) -> Object<Self, V> {
@@ -85,6 +148,7 @@ impl ProjectReference {
             colour: reference.colour.map(ByName),
             visible: (!reference.visible).then_some(false),
             locked: reference.locked.then_some(true),
+            picture: reference.picture.as_ref().map(FilePicture::from),
             ..Self::default()
         };
         match curve.form() {
@@ -122,6 +186,12 @@ impl ProjectReference {
                 written.periodic = nurbs.is_periodic().then_some(true);
                 written.interval = Some(curve.interval());
             }
+            // Older versions read points.
+            ReferenceForm::Frame(frame) => {
+                let corners = frame.corners().iter();
+                let corners = corners.map(|corner| Coordinates::of(*corner, true));
+                written.points = Some(corners.collect());
+            }
         }
         let placement = curve.placement();
         if *placement != Placement::default() {
@@ -136,18 +206,25 @@ impl ProjectReference {
     ///
     /// # Errors
     /// [`ReadError`] with the reference.
-    pub(super) fn into_reference(self, number: usize) -> Result<Reference, ReadError> {
+    pub(super) fn into_reference(mut self, number: usize) -> Result<Reference, ReadError> {
         let given = self.name.clone().filter(|name| !name.trim().is_empty());
         let name = given.unwrap_or_else(|| format!("reference {number}"));
         let group = self.group.clone().unwrap_or_default().0;
         let (colour, visible, locked) = (self.colour, self.visible, self.locked);
-        let curve = self.into_curve();
-        let curve = curve.map_err(|problem| Place::reference(number, &name).problem(problem))?;
+        let place = |problem| Place::reference(number, &name).problem(problem);
+        let picture = self.picture.take().map(Picture::try_from);
+        let picture = picture.transpose().map_err(place)?;
+        let curve = match picture {
+            Some(_) => self.into_frame(),
+            None => self.into_curve(),
+        };
+        let curve = curve.map_err(place)?;
         Ok(Reference {
             group,
             colour: colour.map(|colour| colour.0),
             visible: visible.unwrap_or(true),
             locked: locked.unwrap_or(false),
+            picture,
             ..Reference::new(name, curve)
         })
     }
@@ -176,6 +253,17 @@ impl ProjectReference {
             _ => return Err(Problem::NoReference),
         };
         let interval = self.interval.unwrap_or_else(|| form.default_interval());
+        Ok(ReferenceCurve::new(form, interval, placement)?)
+    }
+
+    /// The frame whose corners are the points: the third one says its size.
+    fn into_frame(self) -> Result<ReferenceCurve, Problem> {
+        let placement = self.placement()?;
+        let points = self.points.ok_or(Problem::NoReference)?;
+        let points = project_values::points("point", points)?;
+        let opposite = points.get(2).ok_or(Problem::NoReference)?;
+        let form = ReferenceForm::Frame(Frame::new(opposite.truncate())?);
+        let interval = form.default_interval();
         Ok(ReferenceCurve::new(form, interval, placement)?)
     }
 

@@ -191,6 +191,27 @@ pub fn counted_items(curves: usize, references: usize) -> String {
     }
 }
 
+/// Count the curves, the references and the pictures of documents, in words.
+pub fn counted_content<'a>(documents: impl IntoIterator<Item = &'a Document>) -> String {
+    let (mut curves, mut references, mut pictures) = (0, 0, 0);
+    for document in documents {
+        curves += document.curves().len();
+        for (_, reference) in document.references() {
+            match reference.picture {
+                Some(_) => pictures += 1,
+                None => references += 1,
+            }
+        }
+    }
+    let others = counted_items(curves, references);
+    let pictures_told = counted(pictures, "picture", "pictures");
+    match (curves + references, pictures) {
+        (_, 0) => others,
+        (0, _) => pictures_told,
+        _ => format!("{others} and {pictures_told}"),
+    }
+}
+
 impl Remarks {
     /// Add a remark.
     pub fn add(&mut self, remark: Remark) {

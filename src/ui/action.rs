@@ -21,6 +21,10 @@ pub enum Action {
     OpenExample(usize),
     /// Add the curves of a file to the document.
     Import,
+    /// Add a picture to trace.
+    Picture,
+    /// Read the active picture from another file.
+    RelinkPicture,
     /// Choose anew what is taken of the files that came in last.
     ChooseImport,
     /// Save under the present path.
@@ -82,6 +86,8 @@ impl Action {
             Self::New,
             Self::Open,
             Self::Import,
+            Self::Picture,
+            Self::RelinkPicture,
             Self::ChooseImport,
             Self::Save,
             Self::SaveAs,
@@ -118,6 +124,8 @@ impl Action {
             Self::Open => "Open…",
             Self::OpenExample(index) => EXAMPLES.get(index).map_or("", |example| example.title),
             Self::Import => "Import curves…",
+            Self::Picture => "Picture to trace…",
+            Self::RelinkPicture => "Relink picture…",
             Self::ChooseImport => "Choose imported…",
             Self::Save => "Save",
             Self::SaveAs => "Save as…",
@@ -178,6 +186,8 @@ impl Action {
                 .get(index)
                 .map_or("", |example| example.description),
             Self::Import => "Add the curves of a file to this document",
+            Self::Picture => "Add a PNG, JPEG, WebP or TIFF behind the curves, to trace it",
+            Self::RelinkPicture => "Read the active picture from another file",
             Self::Save => "Save the document to its file",
             Self::SaveAs => "Save the document to another file",
             Self::ChooseImport => "Choose anew what is taken of the drawing that came in last",
@@ -240,6 +250,8 @@ impl Action {
             Self::Keys => Shortcut::plain(Key::Function(1)),
             Self::OpenExample(_)
             | Self::Reload
+            | Self::Picture
+            | Self::RelinkPicture
             | Self::ChooseImport
             | Self::CopyAs(_)
             | Self::NormaliseLength
@@ -256,6 +268,8 @@ impl Action {
         matches!(
             self,
             Self::Import
+                | Self::Picture
+                | Self::RelinkPicture
                 | Self::ChooseImport
                 | Self::SaveAs
                 | Self::Export(_)
@@ -274,6 +288,10 @@ impl Action {
             Self::Command(command) => command.is_enabled(editor),
             Self::Export(_) | Self::ExportLast => !editor.document().is_empty(),
             Self::Reload => editor.workspace().path().is_some(),
+            Self::RelinkPicture => {
+                let active = editor.active_reference();
+                active.is_some_and(|(_, reference)| reference.picture.is_some())
+            }
             Self::ChooseImport => editor.filing().has_imported(),
             Self::Cut | Self::Copy | Self::CopyAs(_) | Self::Rename => editor.active().is_some(),
             _ => true,

@@ -32,7 +32,7 @@ use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{
     Command, CopyForm, CurvatureDisplay, DrawSettings, DrawWay, Editor, FileAnswer, Layer, MenuOf,
-    MenuSubject, Refusal, Reply, ToolKind, end_drawing, is_project, told,
+    MenuSubject, PictureChange, Refusal, Reply, ToolKind, end_drawing, is_project, told,
 };
 
 use crate::io::{DXF, ExportChoice, Exporter, PROJECT, formats};
@@ -418,6 +418,8 @@ impl App {
             Action::Paper => self.confirm(context, AfterDiscard::OpenPaper(self.paper.page())),
             Action::Quit => self.confirm(context, AfterDiscard::Quit),
             Action::Import => self.files.ask(context, Purpose::Import, self.folder()),
+            Action::Picture => self.files.ask(context, Purpose::Picture, self.folder()),
+            Action::RelinkPicture => self.files.ask(context, Purpose::Relink, self.folder()),
             Action::Save => self.save_own(context, None, false),
             Action::SaveAs => self.ask_save(context, None),
             Action::Reload => told(self.editor.reload()),
@@ -587,6 +589,10 @@ impl App {
             self.confirm(context, AfterDiscard::OpenFile(path));
             return;
         }
+        if purpose == Purpose::Relink {
+            told(PictureChange::Relink(path).apply(&mut self.editor));
+            return;
+        }
         let requested = Requested {
             purpose: purpose.clone(),
             path,
@@ -595,7 +601,7 @@ impl App {
         self.request_files(context, requested, |editor, path| match purpose {
             Purpose::Save(_) => editor.save(path),
             Purpose::Open => editor.open(&paths),
-            Purpose::Import => editor.import(&paths),
+            Purpose::Import | Purpose::Picture | Purpose::Relink => editor.import(&paths),
             Purpose::Export(choice) => editor.export(path, &choice),
         });
         context.request_repaint();

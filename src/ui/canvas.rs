@@ -12,6 +12,7 @@ use glam::DVec2;
 use super::brush::Brush;
 use super::chains::Screen;
 use super::keyboard::Steering;
+use super::pictures::PictureTextures;
 use super::theme::Tokens;
 use super::{gizmo, grid, keyboard, painting, widgets};
 use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Look, Modifiers};
@@ -23,7 +24,7 @@ pub const WHEEL_POINTS: f64 = 220.0;
 const REST: f32 = 0.3;
 
 /// The canvas's own state: how egui's events are to be read.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct Canvas {
     /// Where it was in the last frame.
     rect: Option<Rect>,
@@ -41,6 +42,8 @@ pub struct Canvas {
     keeping: bool,
     /// The modifiers the editor knows of.
     modifiers: Modifiers,
+    /// The pictures on the graphics card.
+    pictures: PictureTextures,
     /// Whether the last wheel event came from fingers on a touchpad: they push, wheels zoom.
     fingers: bool,
 }
@@ -356,12 +359,14 @@ impl Canvas {
             overlays: widgets::overlays(ui.ctx()),
             texts: RefCell::default(),
         };
-        if has_grid {
-            grid::paint(&brush);
-        }
         // Panels may have changed the scene.
         editor.refresh();
         let scene = editor.view().scene();
+        if has_grid {
+            grid::paint(&brush);
+        }
+        // The grid shines through: on top of a picture it would hide edges.
+        self.pictures.paint(&brush, &scene.pictures);
         painting::paint(&brush, scene);
         if has_grid {
             grid::paint_numbers(&brush);

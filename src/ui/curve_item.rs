@@ -14,6 +14,8 @@ pub struct Item {
     pub id: CurveId,
     /// Whether it is a reference.
     pub is_reference: bool,
+    /// Whether it is a reference with a picture.
+    pub is_picture: bool,
     /// Its name.
     pub name: String,
     /// Its group.
@@ -41,6 +43,7 @@ impl Item {
         let curves = curves.map(|(place, (id, curve))| Self {
             id,
             is_reference: false,
+            is_picture: false,
             name: curve.name.clone(),
             group: curve.group.clone(),
             colour: curve.colour,
@@ -54,6 +57,7 @@ impl Item {
         let references = references.map(|(place, (id, reference))| Self {
             id,
             is_reference: true,
+            is_picture: reference.picture.is_some(),
             name: reference.name.clone(),
             group: reference.group.clone(),
             colour: reference.colour,
@@ -78,9 +82,10 @@ impl Item {
 
     /// What screen readers and tooltips call it.
     fn noun(&self) -> &'static str {
-        match self.is_reference {
-            true => "reference",
-            false => "curve",
+        match (self.is_picture, self.is_reference) {
+            (true, _) => "picture",
+            (false, true) => "reference",
+            (false, false) => "curve",
         }
     }
 
@@ -94,9 +99,10 @@ impl Item {
         let colour = self.shown_colour(Tokens::of(ui));
         let centre = rect.left_center() + vec2(4.0 * STEP, 0.0);
         let swatch = Rect::from_center_size(centre, Vec2::splat(3.0 * STEP));
-        match self.is_reference {
-            true => widgets::icon(ui, swatch, Icon::SplinePointer, colour),
-            false => widgets::swatch(ui, swatch, colour),
+        match (self.is_picture, self.is_reference) {
+            (true, _) => widgets::icon(ui, swatch, Icon::Image, colour),
+            (false, true) => widgets::icon(ui, swatch, Icon::SplinePointer, colour),
+            (false, false) => widgets::swatch(ui, swatch, colour),
         }
         let label = format!("{} {}", self.noun(), self.name);
         response.widget_info(|| WidgetInfo::selected(Role::ListItem, true, self.selected, &label));

@@ -91,7 +91,7 @@ fn verdict_ui(ui: &mut Ui, report: &FeatureReport) {
 fn verdict(report: &FeatureReport) -> (Icon, String) {
     if report.polyline {
         let text = match report.sampled {
-            true => "Points have no curvature",
+            true => "No curvature",
             false => "A polyline: corners have no curvature",
         };
         return (Icon::Minus, text.to_owned());

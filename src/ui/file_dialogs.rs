@@ -14,7 +14,7 @@ use super::theme::{ROW, Tokens};
 use super::widgets;
 use crate::document::quoted;
 use crate::editor::with_extension;
-use crate::io::{ExportChoice, Format, PROJECT, formats, shown_path};
+use crate::io::{ExportChoice, Format, PICTURE, PROJECT, formats, shown_path};
 use crate::paper::PaperPage;
 
 /// A dialog that answers "nothing" sooner than this was never shown.
@@ -44,6 +44,10 @@ pub enum Purpose {
     Open,
     /// To add its curves.
     Import,
+    /// To add it as a picture.
+    Picture,
+    /// To read the active picture from it.
+    Relink,
     /// Save under it, then go on.
     Save(Option<AfterDiscard>),
     /// To export to.
@@ -297,7 +301,7 @@ impl Purpose {
     /// The format of the file to write; `None` if files are read.
     fn written(&self) -> Option<&'static Format> {
         match self {
-            Self::Open | Self::Import => None,
+            Self::Open | Self::Import | Self::Picture | Self::Relink => None,
             Self::Save(_) => Some(&PROJECT),
             Self::Export(choice) => Some(choice.format),
         }
@@ -308,6 +312,8 @@ impl Purpose {
         match self {
             Self::Open => ("Open a file".to_owned(), "Open"),
             Self::Import => ("Import curves from a file".to_owned(), "Import"),
+            Self::Picture => ("Add a picture to trace".to_owned(), "Add"),
+            Self::Relink => ("Read the picture from a file".to_owned(), "Relink"),
             Self::Save(_) => ("Save the document".to_owned(), "Save"),
             Self::Export(choice) => {
                 let format = choice.format.extension().to_uppercase();
@@ -380,9 +386,12 @@ fn native_dialog(purpose: &Purpose, proposal: &Path) -> Vec<PathBuf> {
     }
     let readable = formats::readable().flat_map(|format| format.extensions);
     let readable: Vec<&str> = readable.copied().collect();
-    let dialog = dialog.add_filter("Curves", &readable);
+    let dialog = match purpose {
+        Purpose::Picture | Purpose::Relink => dialog.add_filter("Pictures", PICTURE.extensions),
+        _ => dialog.add_filter("Curves and pictures", &readable),
+    };
     match purpose {
-        Purpose::Import => dialog.pick_files().unwrap_or_default(),
+        Purpose::Import | Purpose::Picture => dialog.pick_files().unwrap_or_default(),
         _ => dialog.pick_file().into_iter().collect(),
     }
 }

@@ -31,6 +31,8 @@ pub enum Topic {
     Inspector,
     /// The inspector of a reference.
     Reference,
+    /// The inspector of a picture.
+    Picture,
     /// The list of features.
     Features,
     /// The table of vertices.
@@ -69,6 +71,7 @@ impl Topic {
             Self::Menu("Help") => "start.md",
             Self::Menu(_) | Self::Curves | Self::Inspector => "curves.md",
             Self::Reference => "references.md",
+            Self::Picture => "pictures.md",
             Self::Features => "proofs.md#features",
             Self::Vertices | Self::StatusBar => "curves.md#numbers-and-units",
             Self::EndFit => "ends.md",
@@ -299,6 +302,7 @@ mod tests {
             Topic::Curves,
             Topic::Inspector,
             Topic::Reference,
+            Topic::Picture,
             Topic::Features,
             Topic::Vertices,
             Topic::EndFit,

@@ -30,6 +30,7 @@ pub fn of_action(action: Action) -> Option<Icon> {
         Action::New => Icon::FilePlus,
         Action::Open => Icon::FolderOpen,
         Action::Import => Icon::Import,
+        Action::Picture => Icon::Image,
         Action::Save => Icon::Save,
         Action::ExportLast => Icon::Share,
         Action::Export(exporter) => named(exporter.row.icon),

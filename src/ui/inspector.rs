@@ -3,6 +3,7 @@
 use eframe::egui::{Align2, Button, Key, TextBuffer, TextEdit, Ui, vec2};
 use lucide_icons::Icon;
 
+use super::action::Action;
 use super::curvature_rows::curvature_rows;
 use super::curve_item::Item;
 use super::deviation_panel::deviation_ui;
@@ -14,14 +15,15 @@ use super::joint_list::joint_list_ui;
 use super::keyboard::{self, Typing};
 use super::move_fields::MoveFields;
 use super::number_field::NumberField;
-use super::reference_panel;
 use super::theme::{ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
+use super::{picture_panel, reference_panel};
 use crate::document::{Curve, CurveId, Edit, Group, Reference};
 use crate::editor::{Command, CurvatureDisplay, CurveReport, Editor, told};
 use crate::geometry::MAX_DEGREE;
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::references::ReferenceForm;
 
 /// The inspector's own state.
 #[derive(Default)]
@@ -72,7 +74,7 @@ impl Text {
 
 impl Inspector {
     /// Show the inspector of the active curve or reference, or of several that are selected.
-    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor) {
+    pub fn show(&mut self, ui: &mut Ui, editor: &mut Editor, actions: &mut Vec<Action>) {
         if editor.hand().selection().has_several_items() {
             let mut items = Item::all(editor);
             items.retain(|item| item.selected);
@@ -110,7 +112,7 @@ impl Inspector {
             widgets::form_row(ui, "State", |ui| state_ui(ui, editor, own));
         });
         if let Some(reference) = &reference {
-            self.reference_ui(ui, editor, id, reference);
+            self.reference_ui(ui, editor, (id, reference), actions);
         }
         let display = editor.view().curvature_display;
         widgets::section(ui, "Properties", true, |ui| {
@@ -136,15 +138,29 @@ impl Inspector {
     }
 
     /// Show the shape and the placement of a reference.
-    fn reference_ui(&mut self, ui: &mut Ui, editor: &mut Editor, id: CurveId, own: &Reference) {
+    fn reference_ui(
+        &mut self,
+        ui: &mut Ui,
+        editor: &mut Editor,
+        (id, own): (CurveId, &Reference),
+        actions: &mut Vec<Action>,
+    ) {
         let may_change = own.check_editable().is_ok();
-        widgets::section(ui, own.curve.form().label(), true, |ui| {
-            ui.push_id(id, |ui| {
-                ui.add_enabled_ui(may_change, |ui| {
-                    reference_panel::shape_ui(ui, editor, &mut self.formulas, (id, own));
+        if let ReferenceForm::Frame(frame) = own.curve.form() {
+            widgets::section(ui, own.curve.form().label(), true, |ui| {
+                ui.push_id(id, |ui| {
+                    picture_panel::picture_ui(ui, editor, (own, frame), actions)
                 });
             });
-        });
+        } else {
+            widgets::section(ui, own.curve.form().label(), true, |ui| {
+                ui.push_id(id, |ui| {
+                    ui.add_enabled_ui(may_change, |ui| {
+                        reference_panel::shape_ui(ui, editor, &mut self.formulas, (id, own));
+                    });
+                });
+            });
+        }
         widgets::section(ui, "Placement", true, |ui| {
             ui.push_id(id, |ui| {
                 ui.add_enabled_ui(may_change, |ui| {

@@ -4,7 +4,7 @@ use crate::geometry::references::KINDS;
 use crate::operations::{self, Operation};
 
 /// The pages in the order of the list: file and source.
-const PAGES: [(&str, &str); 14] = [
+const PAGES: [(&str, &str); 15] = [
     ("start.md", include_str!("../../assets/help/start.md")),
     ("curves.md", include_str!("../../assets/help/curves.md")),
     ("ends.md", include_str!("../../assets/help/ends.md")),
@@ -19,6 +19,7 @@ const PAGES: [(&str, &str); 14] = [
         "references.md",
         include_str!("../../assets/help/references.md"),
     ),
+    ("pictures.md", include_str!("../../assets/help/pictures.md")),
     ("files.md", include_str!("../../assets/help/files.md")),
     (
         "command-line.md",

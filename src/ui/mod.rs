@@ -62,6 +62,8 @@ mod overlays;
 mod painting;
 mod palette;
 mod paper_panel;
+mod picture_panel;
+mod pictures;
 mod plots;
 mod proposal;
 mod recovery;

@@ -55,6 +55,8 @@ pub fn shape_ui(
             widgets::fact_row(ui, "Weights", if is_rational { "rational" } else { "none" });
             interval_ui(ui, editor, curve);
         }
+        // A picture has a panel of its own.
+        ReferenceForm::Frame(_) => {}
     }
 }
 

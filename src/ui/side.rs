@@ -81,7 +81,7 @@ impl Side {
         bar.show(ui, |ui| self.tabs_ui(ui, editor));
         let body = CentralPanel::default().frame(Frame::NONE);
         body.show(ui, |ui| {
-            widgets::filling(ui, |ui| self.body_ui(ui, editor));
+            widgets::filling(ui, |ui| self.body_ui(ui, editor, commands));
         });
     }
 
@@ -156,7 +156,7 @@ impl Side {
         });
     }
 
-    fn body_ui(&mut self, ui: &mut Ui, editor: &mut Editor) {
+    fn body_ui(&mut self, ui: &mut Ui, editor: &mut Editor, commands: &mut Vec<Action>) {
         let pad = Frame::NONE.inner_margin(Margin {
             top: 4,
             ..Margin::symmetric(12, 8)
@@ -174,14 +174,16 @@ impl Side {
         }
         let body = CentralPanel::default().frame(pad);
         body.show(ui, |ui| {
-            let reference = editor.active_reference().is_some();
+            let reference = editor.active_reference().map(|(_, it)| it);
+            let is_picture = reference.as_ref().is_some_and(|it| it.picture.is_some());
             let topic = match (task, self.tab) {
                 (Some(Task::Preview(name) | Task::Applied(name)), _) => {
                     operations::find(name).map_or(Topic::Menu("Curve"), Topic::Operation)
                 }
                 (Some(Task::Tool(ToolKind::EndFit)), _) => Topic::EndFit,
                 (Some(Task::Tool(_)), _) => Topic::Tools,
-                (None, Tab::Inspector) if reference => Topic::Reference,
+                (None, Tab::Inspector) if is_picture => Topic::Picture,
+                (None, Tab::Inspector) if reference.is_some() => Topic::Reference,
                 (None, Tab::Inspector) => Topic::Inspector,
                 (None, Tab::Vertices) => Topic::Vertices,
             };
@@ -193,7 +195,9 @@ impl Side {
                     widgets::scrolling(ui, "tool", |ui| self.tool.show(ui, editor));
                 }
                 (None, Tab::Inspector) => {
-                    widgets::scrolling(ui, "inspector", |ui| self.inspector.show(ui, editor));
+                    widgets::scrolling(ui, "inspector", |ui| {
+                        self.inspector.show(ui, editor, commands);
+                    });
                 }
                 (None, Tab::Vertices) => self.vertices_ui(ui, editor),
             });

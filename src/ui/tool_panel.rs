@@ -287,7 +287,7 @@ fn draw_way_ui(ui: &mut Ui, editor: &mut Editor) {
     let tool = editor.hand().tool();
     let is_offered = |way: &DrawWay| match tool {
         ToolKind::Draw => true,
-        ToolKind::AddVertex => *way != DrawWay::ThroughPoints,
+        ToolKind::AddVertex => !way.passes_points(),
         _ => false,
     };
     let ways: Vec<DrawWay> = DrawWay::ALL.into_iter().filter(is_offered).collect();

@@ -1,11 +1,14 @@
 //! Documents of every kind that commands and tools meet.
 
-use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use std::io::Cursor;
+
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace, Reference};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::expressions::LengthUnit;
 use batten::geometry::{Continuity, End};
-use batten::io::{FileMatch, MatchSource};
+use batten::io::{FileMatch, MatchSource, PICTURE};
 use glam::DVec3;
+use image::{GrayImage, ImageFormat, Luma};
 
 use super::common::Kind;
 use super::events::{Event, Player};
@@ -17,6 +20,7 @@ pub struct Case {
     pub name: &'static str,
     curves: Vec<Curve>,
     matches: Vec<FileMatch>,
+    references: Vec<Reference>,
     active: usize,
 }
 
@@ -27,6 +31,7 @@ impl Case {
             name,
             curves,
             matches: Vec::new(),
+            references: Vec::new(),
             active,
         }
     }
@@ -49,6 +54,12 @@ impl Case {
         Self { matches, ..self }
     }
 
+    /// Put a picture behind the curves.
+    fn with_picture(self) -> Self {
+        let references = vec![picture()];
+        Self { references, ..self }
+    }
+
     fn with_active(self, active: usize) -> Self {
         Self { active, ..self }
     }
@@ -57,6 +68,7 @@ impl Case {
     /// to do, and activate a curve.
     pub fn open(&self) -> Result<Player, String> {
         let document = Document::from_curves(self.curves.clone());
+        let document = document.with_references(self.references.clone());
         let ids: Vec<CurveId> = document.ids().collect();
         // Matches that are set are met, as far as they can be.
         let matched = |matched: &FileMatch| match matched.source {
@@ -124,6 +136,7 @@ pub fn cases() -> Vec<Case> {
         locked: true,
         ..with_targets(rational.clone())
     };
+    let planar_again = planar.clone();
     let several = vec![
         planar.clone(),
         with_targets(spatial.clone()),
@@ -159,8 +172,24 @@ pub fn cases() -> Vec<Case> {
         Case::new("beside a locked one", vec![planar.clone(), locked.clone()]),
         Case::new("locked and active", vec![planar.clone(), locked]).with_active(1),
         Case::new("hidden and active", vec![planar, hidden]).with_active(1),
+        Case::new("before a picture", vec![planar_again.clone()]).with_picture(),
+        Case::new("a picture, active", vec![planar_again])
+            .with_picture()
+            .with_active(1),
         Case::new("empty", Vec::new()),
     ]
+}
+
+/// An embedded picture of a few pixels.
+pub fn picture() -> Reference {
+    let mut bytes = Cursor::new(Vec::new());
+    let pixels = GrayImage::from_fn(9, 7, |x, y| Luma([(16 * (x + y)) as u8]));
+    pixels
+        .write_to(&mut bytes, ImageFormat::Png)
+        .expect("a picture");
+    let reading = PICTURE.read(bytes.get_ref()).expect("a picture");
+    let mut references = reading.references.into_iter();
+    references.next().expect("a frame")
 }
 
 /// A document of another program: two curves, the first of which may follow the second.

@@ -288,7 +288,12 @@ fn t_changes_the_way_while_drawing_and_it_is_remembered() {
     assert_eq!(way(&Script::example("arc")), DrawWay::OnClicks);
     let mut script = drawing();
     script.draw_by(DrawWay::OnClicks);
-    for expected in [DrawWay::Vertices, DrawWay::ThroughPoints, DrawWay::OnClicks] {
+    for expected in [
+        DrawWay::Vertices,
+        DrawWay::ThroughPoints,
+        DrawWay::Points,
+        DrawWay::OnClicks,
+    ] {
         script.key(Key::Character('t'));
         assert_eq!(way(&script), expected);
     }

@@ -44,6 +44,7 @@ mod model;
 mod moving_several;
 mod operating_several;
 mod paper;
+mod pictures;
 mod places;
 mod plots;
 mod previews;

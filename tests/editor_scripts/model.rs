@@ -25,7 +25,7 @@ use proptest::sample::select;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
 
 use super::common::Kind;
-use super::documents::{Foreign, with_targets};
+use super::documents::{Foreign, picture, with_targets};
 use super::events::{Event, Player};
 use super::laws::{check_read, check_written};
 use super::places::Place;
@@ -189,6 +189,7 @@ struct Start {
     curves: Vec<Drawn>,
     matches: Vec<Matched>,
     unit: Option<LengthUnit>,
+    pictured: bool,
 }
 
 /// An end that follows a place of another curve. Curves are counted from 0 and round again.
@@ -208,6 +209,8 @@ impl Start {
     fn document(self) -> Document {
         let curves = self.curves.into_iter().map(Drawn::curve);
         let document = Document::from_curves(curves).with_unit(self.unit);
+        let pictures = self.pictured.then(picture);
+        let document = document.with_references(pictures);
         let ids: Vec<CurveId> = document.ids().collect();
         let set = |document: Document, matched: Matched| {
             let edit = matched.edit(&ids, &document);
@@ -267,10 +270,12 @@ impl Drawn {
 fn documents() -> impl Strategy<Value = Start> {
     let curves = prop::collection::vec(drawn(), 0..4);
     let matches = prop::collection::vec(matched(), 0..3);
-    (curves, matches, unit()).prop_map(|(curves, matches, unit)| Start {
+    let start = (curves, matches, unit(), any::<bool>());
+    start.prop_map(|(curves, matches, unit, pictured)| Start {
         curves,
         matches,
         unit,
+        pictured,
     })
 }
 

@@ -78,6 +78,8 @@ pub enum Command {
     ToggleSnapping,
     /// Let alignment lines attract, too, or not.
     ToggleAlignment,
+    /// Let points that are drawn snap to edges of pictures, or not.
+    ToggleEdges,
     /// Let the neighbours of dragged vertices follow, or not.
     Follow(Follow),
     /// Let the other closed vertices follow a dragged one, or stay.
@@ -144,6 +146,7 @@ impl Command {
                 | Self::ShowCombs(_)
                 | Self::ToggleSnapping
                 | Self::ToggleAlignment
+                | Self::ToggleEdges
                 | Self::Follow(_)
                 | Self::ToggleClosedFollow
                 | Self::ToggleKeepShape
@@ -189,6 +192,7 @@ impl Command {
         all.extend([
             Self::ToggleSnapping,
             Self::ToggleAlignment,
+            Self::ToggleEdges,
             Self::ToggleKeeping,
         ]);
         all.extend(Follow::ALL.map(Self::Follow));
@@ -236,6 +240,7 @@ impl Command {
             Self::ShowCombs(of) => of.label(),
             Self::ToggleSnapping => "Snapping",
             Self::ToggleAlignment => "Alignment lines",
+            Self::ToggleEdges => "Edges of pictures",
             Self::Follow(follow) => follow.label(),
             Self::ToggleClosedFollow => "Closed vertices follow",
             Self::ToggleKeepShape => KEEP_SHAPE,
@@ -295,6 +300,9 @@ impl Command {
             Self::ShowCurvature(_) => "Choose whether the window shows κ, the radius R, or both",
             Self::ToggleSnapping => {
                 "Let dragged points snap to the grid, to vertices and to targets"
+            }
+            Self::ToggleEdges => {
+                "Snap drawn points to the strongest edge of a picture near the pointer"
             }
             Self::ToggleAlignment => {
                 "While snapping is on, snap to lines through vertices, ends and their tangents"

@@ -149,6 +149,7 @@ impl Editor {
             Command::ShowCombs(of) => self.view.combs_of = of,
             Command::ShowCurvature(display) => self.view.curvature_display = display,
             Command::ToggleSnapping => self.hand.snapping = !self.hand.snapping,
+            Command::ToggleEdges => self.hand.ignores_edges ^= true,
             Command::ToggleAlignment => self.hand.ignores_lines ^= true,
             Command::Follow(follow) => self.hand.following.toggle(follow),
             Command::ToggleClosedFollow => {

@@ -8,7 +8,7 @@ use crate::editor::jobs::filing::{FileTask, Incoming, UnitQuestion};
 use crate::editor::reply::{Note, Refusal, Reply, with_lines};
 use crate::editor::view::Look;
 use crate::geometry::expressions::LengthUnit;
-use crate::io::counted_items;
+use crate::io::counted_content;
 
 /// Merged documents: the edits that add them, their remarks, and the receiving document afterwards.
 struct Merged {
@@ -88,12 +88,7 @@ impl Editor {
             merged => merged.map_err(|error| Refusal(error.to_string()))?,
         };
         let documents = incoming.documents.iter().map(|read| &read.document);
-        let [curves, references] = documents.fold([0, 0], |[curves, references], document| {
-            let [more_curves, more_references] =
-                [document.curves().count(), document.references().count()];
-            [curves + more_curves, references + more_references]
-        });
-        let counted = counted_items(curves, references);
+        let counted = counted_content(documents);
         let lines = merged.lines.join("\n");
         match incoming.purpose {
             Purpose::Open | Purpose::Edit => {

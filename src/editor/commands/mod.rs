@@ -13,10 +13,12 @@ mod items;
 mod locking;
 mod merging;
 mod operating;
+mod pictures;
 mod recovering;
 mod references;
 mod state;
 
 pub use clipboard::CopyForm;
 pub use command::{Command, Shortcut};
+pub use pictures::{PICTURE_PLANES, PictureChange, measured_direction, picture_plane};
 pub use references::ReferenceChange;

@@ -66,6 +66,7 @@ impl Command {
             Command::ShowCombs(of) => Some(editor.view.combs_of == of),
             Command::ShowCurvature(display) => Some(editor.view.curvature_display == display),
             Command::ToggleSnapping => Some(editor.hand.snapping),
+            Command::ToggleEdges => Some(!editor.hand.ignores_edges),
             Command::ToggleAlignment => Some(!editor.hand.ignores_lines),
             Command::Follow(follow) => Some(editor.hand.following.follow == Some(follow)),
             Command::ToggleClosedFollow => Some(!editor.hand.following.closed_stay),

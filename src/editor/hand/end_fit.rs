@@ -381,7 +381,9 @@ pub fn other_ends(
     });
     let others =
         others.map(|(id, curve)| -> (CurveId, &dyn ParametricCurve) { (id, &curve.polygon) });
-    let references = document.references().filter(|(_, it)| it.visible);
+    let references = document
+        .references()
+        .filter(|(_, it)| it.visible && it.picture.is_none());
     let references =
         references.map(|(id, it)| -> (CurveId, &dyn ParametricCurve) { (id, &it.curve) });
     others.chain(references).flat_map(|(id, curve)| {

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use glam::DVec3;
+
 use crate::document::CurveId;
 use crate::editor::hand::cycle::Cycle;
 use crate::editor::hand::following::{Followers, Following};
@@ -34,6 +36,7 @@ pub struct Hand {
     pub(in crate::editor) snapping: bool,
     /// Whether alignment lines are left out of what attracts.
     pub(in crate::editor) ignores_lines: bool,
+    pub(in crate::editor) ignores_edges: bool,
     /// The movement of the selection by an arrow key that the user set.
     nudge_step: Option<f64>,
     pub(in crate::editor) cycle: Cycle,
@@ -54,6 +57,12 @@ pub struct Hand {
 impl Hand {
     /// The steps that arrow keys can have.
     pub const NUDGE_STEPS: RangeInclusive<f64> = 1e-12..=1e12;
+
+    /// The two points of the finished measurement, if they are apart.
+    pub fn measured(&self) -> Option<[DVec3; 2]> {
+        let ends = self.settings.measurement.as_ref()?.ends();
+        Some(ends).filter(|[from, to]| from != to)
+    }
 
     /// Forget the selection and the settings of a document; the tool stays in use, and the way of drawing.
     pub(in crate::editor) fn begin_document(&mut self) {
@@ -109,6 +118,7 @@ impl Hand {
             axis: self.axis,
             snapping: self.snapping,
             ignores_lines: self.ignores_lines,
+            ignores_edges: self.ignores_edges,
             nudge_step: self.nudge_step(),
             following: self.following,
             added: self.keeping.added(),

@@ -21,6 +21,7 @@ pub fn snap_name(tool: ToolKind, context: &Context) -> Vec<Mark> {
         // The measure tool snaps without the switch.
         ToolKind::Measure if context.modifiers.ctrl => None,
         ToolKind::Measure => context.object_snap(at, &carried),
+        ToolKind::Draw => context.drawn_snap(at),
         _ => context.snap(at, &carried),
     };
     let marks = snap.map(|snap| {

@@ -124,7 +124,8 @@ pub fn snap_to_point(
         }
     }
     let references = document.references();
-    let others = references.filter(|(id, it)| it.visible && carried.item != Some(*id));
+    let others = references
+        .filter(|(id, it)| it.visible && carried.item != Some(*id) && it.picture.is_none());
     for (id, reference) in others {
         let ends = || {
             let jets = End::BOTH.map(|end| MatchPlace::End(end).jet(&reference.curve));

@@ -15,8 +15,8 @@ use crate::editor::workspace::Workspace;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{Progress, counted};
 use crate::io::{
-    ExportChoice, FileError, Fingerprint, Original, PROJECT, Scope, counted_items, disk, formats,
-    shown_path,
+    ExportChoice, FileError, Fingerprint, Original, PROJECT, Scope, counted_content, counted_items,
+    disk, formats, shown_path,
 };
 
 /// Read and write files, and watch the document's own file.
@@ -508,7 +508,7 @@ fn open(
         fingerprint,
         remarks,
     } = files.read(path, &drawings)?;
-    let counted = counted_items(document.curves().count(), document.references().count());
+    let counted = counted_content([&document]);
     let text = format!("{counted} read from {}", shown_path(path));
     let mut text = with_lines(text, &remarks);
     if document.has_extras() {

@@ -13,7 +13,9 @@ pub(in crate::editor) mod foreseeing;
 pub(in crate::editor) mod guides;
 pub(in crate::editor) mod measuring;
 pub(in crate::editor) mod patience;
+pub(in crate::editor) mod pictures;
 pub(in crate::editor) mod proving;
+pub(in crate::editor) mod pyramid;
 pub(in crate::editor) mod recoverable;
 mod recovery;
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::analysis::SampledCurve;
-use crate::document::{Colour, Curve, CurveId};
+use crate::document::{Colour, Curve, CurveId, Document};
 use crate::editor::selection::Selection;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::curve_outlines::{CurveOutlines, PieceTrend};
@@ -18,7 +18,7 @@ use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
 use crate::editor::view::outlines::Sketch;
 use crate::editor::view::overlay::Overlay;
-use crate::editor::view::scene::{ClampedMark, CurveScene, VertexMark};
+use crate::editor::view::scene::{ClampedMark, CurveScene, PictureScene, VertexMark};
 use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
 use crate::geometry::{End, FloatPolygon};
@@ -37,6 +37,8 @@ impl View {
         let border = BORDER * view.pixel;
         view.low -= border;
         view.high += border;
+        scene.pictures.clear();
+        scene.pictures.extend(self.drawn_pictures(shown.document()));
         self.draw_curves(shown, &view, &mut scene.curves);
         for curve in &mut scene.curves {
             curve.unreached = curve.id.is_some_and(|id| overlay.unreached.contains(&id));
@@ -60,6 +62,26 @@ impl View {
         sight.draw_guides(&mut scene.guides);
         scene.hover = sight.hover(overlay);
         self.scene = scene;
+    }
+
+    /// The pictures of visible references, in their order.
+    fn drawn_pictures(&self, document: &Document) -> impl Iterator<Item = PictureScene> {
+        let orientation = &self.viewport.orientation;
+        let references = document.references().filter(|(_, it)| it.visible);
+        references.filter_map(move |(id, reference)| {
+            let (picture, [corner, across, up]) = reference.framed()?;
+            let corner = orientation.flatten(corner);
+            Some(PictureScene {
+                id,
+                corner,
+                sides: [across, up].map(|side| orientation.flatten(side)),
+                opacity: picture.opacity,
+                picture: match self.pictures.get(&picture.source) {
+                    Some(picture) => picture.clone(),
+                    None => Err("The picture is being read".to_owned()),
+                },
+            })
+        })
     }
 
     fn draw_curves(&mut self, shown: Shown<'_>, view: &ViewBox, scenes: &mut Vec<CurveScene>) {

@@ -334,7 +334,10 @@ impl<'a> Sight<'a> {
             .filter(|(_, it)| it.check_editable().is_ok());
         let curves = self.shown.layers.shows(Layer::Curve).then_some(curves);
         let references = document.references();
-        let references = references.filter(|(_, it)| it.check_editable().is_ok());
+        let references = references.filter(|(_, it)| {
+            // A picture lies behind what a box is drawn round.
+            it.picture.is_none() && it.check_editable().is_ok()
+        });
         let curves = curves.into_iter().flatten().map(|(id, _)| id);
         let items = curves.chain(references.map(|(id, _)| id));
         items.filter(|id| self.meets(*id, &within)).collect()

@@ -44,9 +44,12 @@ impl Sight<'_> {
     ) -> Vec<CurveHit> {
         let curves = self.shown.layers.shows(Layer::Curve).then(|| self.curves());
         let curves = curves.into_iter().flatten().map(|(id, _)| id);
-        let shown = curves
-            .chain(self.shown_references())
-            .filter(|id| takes(*id));
+        let is_picture = |id: &CurveId| {
+            let reference = self.document().reference(*id);
+            reference.is_some_and(|it| it.picture.is_some())
+        };
+        let references = self.shown_references().filter(|id| !is_picture(id));
+        let shown = curves.chain(references).filter(|id| takes(*id));
         let model = self.viewport().to_model(place);
         let reach = REACH * self.viewport().pixel();
         let passes = shown.filter_map(|id| {

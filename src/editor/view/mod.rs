@@ -27,6 +27,7 @@ pub(in crate::editor) mod osculating_circle;
 pub(in crate::editor) mod outline;
 mod outlines;
 pub(in crate::editor) mod overlay;
+mod picture_edges;
 mod plot_chain;
 mod plot_marks;
 mod plot_scene;
@@ -58,7 +59,7 @@ pub use outline::{Bounds, GAP, ViewBox};
 pub use plot_scene::{PlotBand, PlotKind, PlotScene};
 pub use scene::{
     ClampedMark, CurveScene, DragReadout, GuideLabel, GuideScene, HoverScene, Legs, LossArrow,
-    Mark, MeasuredFigure, Scene, VertexMark,
+    Mark, MeasuredFigure, PictureScene, Scene, VertexMark,
 };
 pub use sight::Sight;
 pub(in crate::editor) use view::Framing;

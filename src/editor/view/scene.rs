@@ -1,8 +1,11 @@
 //! The contents of the canvas in model coordinates, ready to paint.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 
 use crate::document::{Colour, CurveId};
+use crate::editor::jobs::pyramid::Pyramid;
 use crate::editor::view::end_marks::EndFitMarks;
 use crate::editor::view::feature_report::FeatureMark;
 use crate::editor::view::outline::append_gap;
@@ -12,6 +15,8 @@ use crate::geometry::degrees_text;
 /// point ([`crate::editor::GAP`]) breaks them.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
+    /// The pictures that are shown, behind everything else.
+    pub pictures: Vec<PictureScene>,
     /// The references that are shown, then the curves.
     pub curves: Vec<CurveScene>,
     /// The curves that the gesture or the operation changes as they were before, with their float S-polygons, drawn
@@ -27,6 +32,21 @@ pub struct Scene {
     pub guides: GuideScene,
     /// The hovered thing.
     pub hover: Option<HoverScene>,
+}
+
+/// A picture in its frame.
+#[derive(Clone, Debug)]
+pub struct PictureScene {
+    /// The reference with the frame.
+    pub id: CurveId,
+    /// The lower left corner.
+    pub corner: DVec2,
+    /// The vectors along the lower and along the left side.
+    pub sides: [DVec2; 2],
+    /// How strongly it is drawn, from 0 to 1.
+    pub opacity: f64,
+    /// The picture, or what the frame says in its place.
+    pub picture: Result<Arc<Pyramid>, String>,
 }
 
 /// The layers of one curve or reference; those that are not shown are empty.

@@ -11,6 +11,7 @@ use crate::editor::jobs::comparing::Comparing;
 use crate::editor::jobs::guides::{FeatureOf, Guides};
 use crate::editor::jobs::measuring::Measuring;
 use crate::editor::jobs::patience::Patience;
+use crate::editor::jobs::pictures::Pictures;
 use crate::editor::jobs::proving::Proving;
 use crate::editor::view::comb::{CombSettings, CombsOf};
 use crate::editor::view::curvature_display::CurvatureDisplay;
@@ -33,6 +34,7 @@ pub struct View {
     pub(in crate::editor) measuring: Measuring,
     pub(in crate::editor) comparing: Comparing,
     pub(in crate::editor) guides: Guides,
+    pub(in crate::editor) pictures: Pictures,
     pub(in crate::editor) joints: Joints,
     /// The distance within which ends of curves meet; `None` for the usual one.
     pub joint_tolerance: Option<f64>,
@@ -160,7 +162,8 @@ impl View {
         self.proving = Client::background("features", wake.clone());
         self.measuring = Client::background("harmony", wake.clone());
         self.comparing = Comparing::background(wake.clone());
-        self.guides = Guides::background(wake);
+        self.guides = Guides::background(wake.clone());
+        self.pictures = Pictures::background(wake);
     }
 
     /// Update the analyses and the outlines, which hit tests read.
@@ -173,6 +176,7 @@ impl View {
     /// Update analyses, features, harmony, joints and distances.
     pub(in crate::editor) fn update(&mut self, shown: Shown<'_>, patience: &mut Patience) {
         self.analyse(shown.document());
+        self.pictures.update(shown.document());
         // A drag that Esc takes back leaves the comb as it was.
         if self.combed != shown.active() && !shown.is_holding {
             self.combed = shown.active();

@@ -54,7 +54,7 @@ impl ReferenceCurve {
         [from, to]: [f64; 2],
         placement: Placement,
     ) -> Result<Self, ReferenceError> {
-        if let ReferenceForm::Points(points) = &form {
+        if let Some(points) = form.row() {
             return Ok(Self {
                 interval: form.default_interval(),
                 pieces: points.points().len() - 1,
@@ -210,6 +210,7 @@ impl Differentiable for ReferenceCurve {
             }
             ReferenceForm::Points(points) => points.derivatives(t, order),
             ReferenceForm::Nurbs(nurbs) => nurbs.derivatives(t, order),
+            ReferenceForm::Frame(frame) => frame.outline().derivatives(t, order),
         })
     }
 
@@ -218,7 +219,7 @@ impl Differentiable for ReferenceCurve {
             ReferenceForm::Analytic(form) => form.enclosed(t)?,
             ReferenceForm::Formula(formula) => formula.series(t),
             ReferenceForm::Nurbs(nurbs) => nurbs.enclosed(t)?,
-            ReferenceForm::Points(_) => return None,
+            ReferenceForm::Points(_) | ReferenceForm::Frame(_) => return None,
         };
         Some(self.placement.enclosed(coordinates))
     }
@@ -239,7 +240,7 @@ impl ParametricCurve for ReferenceCurve {
 
     fn continuity(&self) -> usize {
         match &self.form {
-            ReferenceForm::Points(_) => 0,
+            ReferenceForm::Points(_) | ReferenceForm::Frame(_) => 0,
             ReferenceForm::Nurbs(nurbs) => nurbs.continuity(),
             _ => usize::MAX,
         }
@@ -254,6 +255,9 @@ impl ParametricCurve for ReferenceCurve {
             // Where two legs meet the side counts.
             ReferenceForm::Points(points) => {
                 self.placed_values(points.leg_derivatives(piece, t, order))
+            }
+            ReferenceForm::Frame(frame) => {
+                self.placed_values(frame.outline().leg_derivatives(piece, t, order))
             }
             // At a knot too.
             ReferenceForm::Nurbs(nurbs) => {

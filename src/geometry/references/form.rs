@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::error::ReferenceError;
 use super::formula::Formula;
+use super::frame::Frame;
 use super::kind::{EVERYWHERE, ReferenceKind};
 use super::nurbs::Nurbs;
 use super::point_list::PointList;
@@ -21,6 +22,8 @@ pub enum ReferenceForm {
     Points(PointList),
     /// A B-spline on any knots.
     Nurbs(Nurbs),
+    /// The frame of a picture.
+    Frame(Frame),
 }
 
 /// Kind of curve with a checked value for each parameter.
@@ -84,6 +87,7 @@ impl ReferenceForm {
             Self::Formula(_) => "formula",
             Self::Points(_) => "points",
             Self::Nurbs(_) => "nurbs",
+            Self::Frame(_) => "picture",
         }
     }
 
@@ -94,6 +98,7 @@ impl ReferenceForm {
             Self::Formula(_) => "Formula",
             Self::Points(_) => "Points",
             Self::Nurbs(_) => "NURBS",
+            Self::Frame(_) => "Picture",
         }
     }
 
@@ -104,6 +109,7 @@ impl ReferenceForm {
             Self::Formula(formula) => formula.texts()[2].is_none(),
             Self::Points(points) => points.is_planar(),
             Self::Nurbs(nurbs) => nurbs.is_planar(),
+            Self::Frame(_) => true,
         }
     }
 
@@ -112,9 +118,18 @@ impl ReferenceForm {
         matches!(self, Self::Analytic(_) | Self::Formula(_))
     }
 
-    /// Whether it has a curvature, but perhaps at the knots of a B-spline; points have none.
+    /// Whether it has a curvature, but perhaps at the knots of a B-spline; points and frames have none.
     pub fn is_smooth(&self) -> bool {
-        !matches!(self, Self::Points(_))
+        self.row().is_none()
+    }
+
+    /// The points that straight lines join, of points and of frames.
+    pub(super) fn row(&self) -> Option<&PointList> {
+        match self {
+            Self::Points(points) => Some(points),
+            Self::Frame(frame) => Some(frame.outline()),
+            Self::Analytic(_) | Self::Formula(_) | Self::Nurbs(_) => None,
+        }
     }
 
     /// Whether it may run through infinity, or jump, within its domain: formulas may.
@@ -129,6 +144,7 @@ impl ReferenceForm {
             Self::Formula(_) => [0.0, 1.0],
             Self::Points(points) => [0.0, (points.points().len() - 1) as f64],
             Self::Nurbs(nurbs) => nurbs.interval(),
+            Self::Frame(_) => [0.0, 4.0],
         }
     }
 
@@ -137,7 +153,7 @@ impl ReferenceForm {
         match self {
             Self::Analytic(form) => (form.kind.domain)(&form.values),
             Self::Formula(_) => EVERYWHERE,
-            Self::Points(_) | Self::Nurbs(_) => self.default_interval(),
+            Self::Points(_) | Self::Nurbs(_) | Self::Frame(_) => self.default_interval(),
         }
     }
 }

@@ -92,6 +92,10 @@ impl fmt::Display for ReferenceCurve {
                 let (degree, points) = (nurbs.degree(), nurbs.points().len());
                 return write!(formatter, "NURBS of degree {degree} with {points} points");
             }
+            ReferenceForm::Frame(frame) => {
+                let size = frame.size();
+                return write!(formatter, "picture {} x {}", size.x, size.y);
+            }
         };
         let given: Vec<String> = given.into_iter().chain(interval).collect();
         write!(formatter, "{name}:{}", given.join(separator))

@@ -330,7 +330,10 @@ impl Plots {
                 return empty_ui(ui, "A reference has no S-polygon to plot.");
             }
             if !reference.curve.form().is_smooth() {
-                let text = "Points have no curvature. Fit a curve to them to see its plots.";
+                let text = match reference.picture {
+                    Some(_) => "A picture has no curvature. Trace it to see the plots of a curve.",
+                    None => "Points have no curvature. Fit a curve to them to see its plots.",
+                };
                 return empty_ui(ui, text);
             }
         }

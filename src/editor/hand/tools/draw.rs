@@ -4,14 +4,15 @@ use glam::{DVec2, DVec3};
 
 use super::draw_way::DrawWay;
 use super::tool::{Context, Effect, Entry, Tool};
-use crate::document::{Curve, Edit};
+use crate::document::{Curve, Edit, Reference};
 use crate::editor::hand::gesture::{Gesture, is_hasty_click};
 use crate::editor::hand::input::Key;
-use crate::editor::hand::snapping::{Carried, along_axis, by_fifteen_degrees};
+use crate::editor::hand::snapping::{along_axis, by_fifteen_degrees};
 use crate::editor::hand::typed_point::{EntryError, TypedPoint};
 use crate::editor::view::hit::REACH;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::viewport::Viewport;
+use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use crate::geometry::{FloatPolygon, MAX_MAGNITUDE, PolygonError, counted};
 
 /// The degree that a drawn curve gets if there is no active curve to take it from.
@@ -159,7 +160,8 @@ impl DrawTool {
     fn next(&self, at: DVec2, context: &Context) -> DVec2 {
         let last = self.points.last().filter(|_| context.modifiers.shift);
         let Some(last) = last else {
-            return context.snapped(at, &Carried::default());
+            let snap = context.drawn_snap(at);
+            return snap.map_or(at, |snap| context.viewport.flatten(snap.point));
         };
         let last = context.viewport.flatten(*last);
         let leg = at - last;
@@ -188,6 +190,9 @@ impl DrawTool {
     fn finish(&mut self, periodic: bool, context: &Context) -> Vec<Effect> {
         self.undone.clear();
         let points = std::mem::take(&mut self.points);
+        if context.settings.draw.way == DrawWay::Points {
+            return self.finish_points(points, periodic, context);
+        }
         let wanted = drawn_degree(context);
         match polygon(&points, periodic, context) {
             Ok(polygon) => {
@@ -218,6 +223,43 @@ impl DrawTool {
                 };
                 self.points = points;
                 vec![Effect::Say(text)]
+            }
+        }
+    }
+
+    /// Add the clicks as a reference, to which a curve can be fitted.
+    fn finish_points(
+        &mut self,
+        points: Vec<DVec3>,
+        periodic: bool,
+        context: &Context,
+    ) -> Vec<Effect> {
+        if points.is_empty() {
+            return vec![Effect::Finish];
+        }
+        let closing = points.first().copied().filter(|_| periodic);
+        let list = PointList::new(points.iter().copied().chain(closing).collect());
+        let curve = list.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
+        match curve {
+            Ok(curve) => {
+                let id = context.document.next_id();
+                let name = context.document.free_name("points 1");
+                let said = format!(
+                    "{}: fit a curve to them",
+                    counted(points.len(), "point", "points")
+                );
+                let reference = Box::new(Reference::new(name, curve));
+                vec![
+                    Effect::Apply("Draw points".into(), vec![Edit::AddReference(reference)]),
+                    Effect::Select(Vec::new()),
+                    Effect::Activate(id),
+                    Effect::Say(said),
+                    Effect::Finish,
+                ]
+            }
+            Err(error) => {
+                self.points = points;
+                vec![Effect::Say(error.to_string())]
             }
         }
     }

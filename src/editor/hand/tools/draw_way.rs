@@ -13,11 +13,18 @@ pub enum DrawWay {
     Vertices,
     /// The fair curve through all clicks.
     ThroughPoints,
+    /// The clicks are the points of a reference.
+    Points,
 }
 
 impl DrawWay {
     /// All ways, in the order of the key that changes them.
-    pub const ALL: [Self; 3] = [Self::OnClicks, Self::Vertices, Self::ThroughPoints];
+    pub const ALL: [Self; 4] = [
+        Self::OnClicks,
+        Self::Vertices,
+        Self::ThroughPoints,
+        Self::Points,
+    ];
 
     /// The name, also in settings.
     pub fn label(self) -> &'static str {
@@ -25,6 +32,7 @@ impl DrawWay {
             Self::OnClicks => "On clicks",
             Self::Vertices => "Vertices",
             Self::ThroughPoints => "Through points",
+            Self::Points => "Points",
         }
     }
 
@@ -36,12 +44,18 @@ impl DrawWay {
             }
             Self::Vertices => "All clicks are vertices of the float S-polygon (T changes)",
             Self::ThroughPoints => "The fair curve through all clicks (T changes)",
+            Self::Points => "Points to fit a curve to, as a reference (T changes)",
         }
     }
 
     /// Whether the curve ends on clicks, not the polygon.
     pub fn ends_on_clicks(self) -> bool {
         self != Self::Vertices
+    }
+
+    /// Whether what is drawn passes all clicks, so that they can follow an edge.
+    pub fn passes_points(self) -> bool {
+        matches!(self, Self::ThroughPoints | Self::Points)
     }
 
     /// The way with a name.
@@ -54,7 +68,8 @@ impl DrawWay {
         match self {
             Self::OnClicks => Self::Vertices,
             Self::Vertices => Self::ThroughPoints,
-            Self::ThroughPoints => Self::OnClicks,
+            Self::ThroughPoints => Self::Points,
+            Self::Points => Self::OnClicks,
         }
     }
 
@@ -71,6 +86,8 @@ impl DrawWay {
         match self {
             Self::OnClicks if !periodic => FloatPolygon::through_ends(degree, clicks),
             Self::ThroughPoints => FloatPolygon::through_points(degree, clicks, periodic),
+            // A row of points is joined by straight lines.
+            Self::Points => FloatPolygon::new(1, clicks.to_vec(), None, periodic),
             Self::OnClicks | Self::Vertices => {
                 let highest = clicks.len().saturating_sub(1).max(1);
                 FloatPolygon::new(degree.min(highest), clicks.to_vec(), None, periodic)

@@ -54,6 +54,17 @@ impl Measurement {
         }
     }
 
+    /// The measurement of two points.
+    pub(in crate::editor) fn of([from, to]: [DVec3; 2]) -> Self {
+        let arc = None;
+        Self { from, to, arc }
+    }
+
+    /// Its points.
+    pub fn ends(&self) -> [DVec3; 2] {
+        [self.from, self.to]
+    }
+
     /// The figures. Once the curve has changed, the arc length is to plotting accuracy, as long as both points
     /// lie on it.
     pub(super) fn figures(&self, sight: Sight<'_>) -> Vec<MeasuredFigure> {

@@ -48,6 +48,8 @@ pub struct Context<'a> {
     pub snapping: bool,
     /// Whether alignment lines are left out of what attracts.
     pub ignores_lines: bool,
+    /// Whether edges of pictures are left out of what attracts.
+    pub ignores_edges: bool,
     /// How far an arrow key moves the selection.
     pub nudge_step: f64,
     /// How the neighbours of dragged vertices follow.
@@ -311,6 +313,27 @@ impl Context<'_> {
         self.snaps().then(near).flatten()
     }
 
+    /// The snap of a point that is drawn: as others, and where the curve passes its points to the edges of pictures,
+    /// before alignment lines and the grid. Ctrl turns edges off.
+    pub fn drawn_snap(&self, place: DVec2) -> Option<Snap> {
+        let carried = Carried::default();
+        let follows = self.settings.draw.way.passes_points();
+        if !follows || self.ignores_edges || self.modifiers.ctrl {
+            return self.snap(place, &carried);
+        }
+        let object = || {
+            self.object_snap(place, &carried)
+                .or_else(|| self.on_reference(place, &carried))
+        };
+        let edge = || {
+            let edge = self.hits.picture_edge(place)?;
+            let point = self.viewport.grounded(edge);
+            Some(Snap::to(point, "Edge of picture"))
+        };
+        let found = self.snapping.then(object).flatten().or_else(edge);
+        found.or_else(|| self.snap(place, &carried))
+    }
+
     /// Whether snapping is on: Ctrl turns it round.
     pub fn snaps(&self) -> bool {
         self.snapping != self.modifiers.ctrl
@@ -382,6 +405,10 @@ impl Context<'_> {
     fn on_reference(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
         let place = self.viewport.to_screen(place);
         let hit = self.hits.reference(place, carried.item)?;
+        let reference = self.document.reference(hit.curve)?;
+        if reference.picture.is_some() {
+            return None;
+        }
         let point = self.document.shape(hit.curve)?.jet(hit.u).point;
         let name = snapping::reference_name(hit.curve, self.document);
         Some(Snap::to(point, name))

@@ -1,0 +1,202 @@
+//! Changing the picture of the active reference, and the size and place of its frame.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::{DMat3, DQuat, DVec3};
+
+use crate::document::{CurveId, Edit, Picture, PictureSource, Reference};
+use crate::editor::Editor;
+use crate::editor::hand::Measurement;
+use crate::editor::reply::{Note, Refusal, Reply};
+use crate::editor::view::NamedView;
+use crate::geometry::references::{Placement, ReferenceForm};
+use crate::io::disk;
+
+/// A view whose direction is off a picture's normal by less than this looks straight at it.
+const STRAIGHT: f64 = 1e-9;
+
+/// A change of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PictureChange {
+    /// Draw it more or less strongly, from 0 to 1.
+    Opacity(f64),
+    /// Give its frame another width; the height goes along.
+    Width(f64),
+    /// Give its frame another height; the width goes along.
+    Height(f64),
+    /// Put it into another plane.
+    Plane(NamedView),
+    /// Scale it about the first of the two measured points so that they have this distance.
+    TrueDistance(f64),
+    /// Turn it about the first of the two measured points so that the second lies in this direction, in radians.
+    TrueDirection(f64),
+    /// Read it from another file.
+    Relink(PathBuf),
+    /// Keep its bytes in the project.
+    Embed,
+}
+
+/// The views whose planes pictures stand in.
+pub const PICTURE_PLANES: [NamedView; 3] = [NamedView::Xy, NamedView::Xz, NamedView::Yz];
+
+/// The view that looks straight at a picture, whatever its turn in its plane.
+pub fn picture_plane(placement: &Placement) -> Option<NamedView> {
+    let normal = placement.rotation() * DVec3::Z;
+    let is_own = |view: &NamedView| (facing(*view) * DVec3::Z).dot(normal).abs() > 1.0 - STRAIGHT;
+    PICTURE_PLANES.into_iter().find(is_own)
+}
+
+/// The rotation of a picture that stands upright before a view.
+fn facing(view: NamedView) -> DQuat {
+    let seen = view.orientation();
+    DQuat::from_mat3(&DMat3::from_cols(seen.right(), seen.up(), seen.towards()))
+}
+
+impl PictureChange {
+    /// Change the active picture as one step. The message shows the reply.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it cannot be changed so; nothing is changed then.
+    pub fn apply(&self, editor: &mut Editor) -> Reply {
+        match self.edit(editor) {
+            Ok(Some(edit)) => {
+                let measured = self.moved_measurement(editor);
+                if matches!(self, Self::Relink(_)) {
+                    editor.view.pictures.retry();
+                }
+                let reply = editor.apply(self.label(), vec![edit]);
+                if let (Ok(_), Some(measured)) = (&reply, measured) {
+                    editor.hand.settings.measurement = Some(measured);
+                }
+                reply
+            }
+            Ok(None) => Ok(Note::silent()),
+            Err(refusal) => {
+                editor.interrupt();
+                editor.tell(Err(refusal))
+            }
+        }
+    }
+
+    /// Preview the change of the active picture, while its field is dragged.
+    pub fn preview(&self, editor: &mut Editor) {
+        if let Ok(Some(edit)) = self.edit(editor) {
+            editor.preview(self.label(), vec![edit]);
+        }
+    }
+
+    /// The label of the step of undo.
+    fn label(&self) -> &'static str {
+        match self {
+            Self::Opacity(_) => "Change opacity",
+            Self::Width(_) | Self::Height(_) | Self::TrueDistance(_) => "Scale picture",
+            Self::Plane(_) | Self::TrueDirection(_) => "Turn picture",
+            Self::Relink(_) => "Relink picture",
+            Self::Embed => "Embed picture",
+        }
+    }
+
+    fn edit(&self, editor: &Editor) -> Result<Option<Edit>, Refusal> {
+        let Some((reference, found, picture)) = active_picture(editor) else {
+            return Ok(None);
+        };
+        let changed = |picture| Ok(Some(Edit::SetPicture { reference, picture }));
+        match self {
+            Self::Opacity(opacity) => {
+                let opacity = opacity.clamp(0.0, 1.0);
+                return changed(Picture { opacity, ..picture });
+            }
+            Self::Relink(path) => {
+                let source = PictureSource::File(path.clone());
+                return changed(Picture { source, ..picture });
+            }
+            Self::Embed => {
+                let Some(path) = picture.file() else {
+                    return Ok(None);
+                };
+                let bytes = disk::read_picture(path)?;
+                let source = PictureSource::Embedded(bytes.into());
+                return changed(Picture { source, ..picture });
+            }
+            _ => {}
+        }
+        let placement = self.placement(editor, &found)?;
+        let curve = found.curve.clone().placed(placement);
+        Ok((curve != found.curve).then_some(Edit::SetReference { reference, curve }))
+    }
+
+    /// The new placement of the frame.
+    fn placement(&self, editor: &Editor, found: &Reference) -> Result<Placement, Refusal> {
+        let now = *found.curve.placement();
+        let ReferenceForm::Frame(frame) = found.curve.form() else {
+            return Ok(now);
+        };
+        let centre = now.point((0.5 * frame.size()).extend(0.0));
+        let placement = match self {
+            Self::Width(width) => {
+                now.scaled_about(now.translation(), width / (frame.size().x * now.scale()))
+            }
+            Self::Height(height) => {
+                now.scaled_about(now.translation(), height / (frame.size().y * now.scale()))
+            }
+            Self::Plane(plane) => {
+                now.rotated_about(centre, facing(*plane) * now.rotation().inverse())
+            }
+            Self::TrueDistance(length) => {
+                let [from, to] = measured(editor)?;
+                now.scaled_about(from, length / from.distance(to))
+            }
+            Self::TrueDirection(angle) => {
+                let [from, to] = measured(editor)?;
+                let turn = turn_to(now.rotation(), [from, to], *angle);
+                now.rotated_about(from, turn)
+            }
+            _ => Ok(now),
+        };
+        Ok(placement.map_err(|error| error.to_string())?)
+    }
+
+    /// The measurement that goes along with the picture, if the change is made by it.
+    fn moved_measurement(&self, editor: &Editor) -> Option<Measurement> {
+        let (_, found, _) = active_picture(editor)?;
+        let [from, to] = editor.hand.measured()?;
+        let by = to - from;
+        let by = match self {
+            Self::TrueDistance(length) => by * (length / by.length()),
+            Self::TrueDirection(angle) => {
+                turn_to(found.curve.placement().rotation(), [from, to], *angle) * by
+            }
+            _ => return None,
+        };
+        Some(Measurement::of([from, from + by]))
+    }
+}
+
+/// The active picture, with its reference.
+fn active_picture(editor: &Editor) -> Option<(CurveId, Arc<Reference>, Picture)> {
+    let (id, reference) = editor.active_reference()?;
+    let picture = reference.picture.clone()?;
+    Some((id, reference, picture))
+}
+
+/// The two measured points, if they are apart.
+fn measured(editor: &Editor) -> Result<[DVec3; 2], Refusal> {
+    let measured = editor.hand.measured();
+    measured.ok_or_else(|| "Measure two points of the picture first".into())
+}
+
+/// The turn about a picture's normal that brings the second measured point into a direction.
+fn turn_to(rotation: DQuat, ends: [DVec3; 2], angle: f64) -> DQuat {
+    let normal = rotation * DVec3::Z;
+    DQuat::from_axis_angle(normal, angle - measured_direction(rotation, ends))
+}
+
+/// The direction from the first to the second measured point in a picture's plane: an angle in radians from the line that
+/// the plane shares with the ground, or from the x axis.
+pub fn measured_direction(rotation: DQuat, [from, to]: [DVec3; 2]) -> f64 {
+    let normal = rotation * DVec3::Z;
+    let along = DVec3::Z.cross(normal).try_normalize().unwrap_or(DVec3::X);
+    let up = normal.cross(along);
+    (to - from).dot(up).atan2((to - from).dot(along))
+}
