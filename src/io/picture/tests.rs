@@ -184,3 +184,42 @@ fn a_picture_of_too_many_pixels_is_refused_before_it_is_decoded() {
     bytes[29..33].copy_from_slice(&sum);
     assert!(matches!(decode(&bytes), Err(Problem::Picture(_))));
 }
+
+/// `BATTEN_PICTURES=DIR cargo test --lib real_pictures -- --ignored --nocapture`
+#[test]
+#[ignore = "needs a folder of pictures"]
+fn real_pictures_have_as_many_pixels_as_their_frames_say() {
+    let folder = std::env::var("BATTEN_PICTURES").expect("a folder");
+    let mut folders = vec![std::path::PathBuf::from(folder)];
+    let (mut read, mut refused) = (0, 0);
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let extension = path.extension().and_then(|it| it.to_str()).unwrap_or("");
+            if path.is_dir() {
+                folders.push(path);
+            } else if PICTURE.extensions.contains(&extension) {
+                let bytes = std::fs::read(&path).expect("a file");
+                match (PICTURE.read(&bytes), decode(&bytes)) {
+                    (Ok(reading), Ok(decoded)) => {
+                        let picture = reading.references[0].picture.as_ref();
+                        assert_eq!(picture.expect("a picture").pixels, decoded.size);
+                        let [width, height] = decoded.size.map(|it| it as usize);
+                        assert_eq!(decoded.rgba.len(), 4 * width * height);
+                        read += 1;
+                    }
+                    (Err(reason), _) => {
+                        refused += 1;
+                        println!("{}: {reason}", path.display());
+                    }
+                    (_, Err(reason)) => {
+                        refused += 1;
+                        println!("{}: {reason}", path.display());
+                    }
+                }
+            }
+        }
+    }
+    println!("{read} pictures read, {refused} refused");
+    assert!(read > 0);
+}
