@@ -10,16 +10,16 @@ use std::path::{Component, Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::error::{FileError, FileProblem};
+use super::error::{FileError, FileProblem, shown_path};
 use super::exchange::drawing::Drawing;
 use super::fingerprint::Fingerprint;
 use super::format::Format;
 use super::formats;
 use super::loss::{Export, LossReport};
 use super::original::Original;
-use super::reading::Reading;
+use super::reading::{Reading, Remark};
 use super::table_columns::ColumnChoice;
-use crate::document::{Document, PictureSource};
+use crate::document::{Document, PictureSource, quoted};
 use crate::geometry::PolygonKind;
 
 /// The most bytes that are read: far more than any curve, far less than fills the memory.
@@ -197,7 +197,14 @@ fn place_pictures(reading: &mut Reading, path: &Path, format: &Format) {
         };
         match &picture.source {
             PictureSource::File(file) => {
-                picture.source = PictureSource::File(normal(&folder.join(file)));
+                let file = normal(&folder.join(file));
+                if !file.is_file() {
+                    let (name, file) = (quoted(&reference.name), shown_path(&file));
+                    let told =
+                        format!("The picture {name} is missing: relink it. There is no {file}");
+                    reading.remarks.add(Remark::Drawn(told));
+                }
+                picture.source = PictureSource::File(file);
             }
             PictureSource::Embedded(_) if !format.holds_documents => {
                 let name = path.file_name().unwrap_or_default();

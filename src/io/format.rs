@@ -217,7 +217,7 @@ impl Format {
         let pictures = pictures.iter().cloned();
         losses
             .losses
-            .extend(pictures.map(|name| (name, Loss::Reference)));
+            .extend(pictures.map(|name| (name, Loss::Picture)));
         losses.add_matches(document, |_| true);
         losses.project_keys = !document.extras().is_empty();
         Ok(Export { bytes, losses })

@@ -53,6 +53,8 @@ pub enum Loss {
     Targets,
     /// A reference as a whole.
     Reference,
+    /// A picture as a whole.
+    Picture,
     /// How much each point of a reference counts.
     PointWeights,
     /// A curve as a whole.
@@ -187,7 +189,7 @@ impl LossReport {
     pub fn left_out(&self) -> [usize; 2] {
         let is_left_out = |loss: &Loss, of_curves: bool| match loss {
             Loss::Curve => of_curves,
-            Loss::Reference => !of_curves,
+            Loss::Reference | Loss::Picture => !of_curves,
             Loss::LeftOut { is_curve, .. } => *is_curve == of_curves,
             _ => false,
         };
@@ -401,6 +403,7 @@ impl Loss {
                 format!("the {kind} polygon is drawn without its weights")
             }
             Self::Reference => lost("references aren't"),
+            Self::Picture => lost("pictures aren't"),
             Self::PointWeights => lost("weights of points aren't"),
             Self::Curve => lost("curves aren't"),
             Self::LeftOut { what, .. } => {

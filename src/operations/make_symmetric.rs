@@ -21,7 +21,9 @@ use crate::geometry::approximation::merging::{MergeError, check_joint, joint_of,
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
-use crate::geometry::{BezierPolygon, End, FloatPolygon, Mirror, Progress, counted, significant};
+use crate::geometry::{
+    BezierPolygon, End, FloatPolygon, Mirror, Progress, arc_length_between, counted, significant,
+};
 
 const AXIS: Parameter = Parameter {
     name: "axis",
@@ -52,6 +54,13 @@ const OF_CUT: f64 = 0.1;
 
 /// The shares that merging the half with its image may take, before the mean of both: each search finds another curve.
 const OF_MERGE: [f64; 3] = [0.5, 0.2, 1.0];
+
+/// A part of an open curve beyond the axis is an overshoot up to this share of the rest: a half that was drawn a little
+/// too far. Of a longer one nobody knows which half is meant.
+const OVERSHOOT: f64 = 0.1;
+
+/// The relative precision of lengths that are compared with that.
+const PRECISION: f64 = 1e-3;
 
 /// How often segments are halved at most where the curve is cut.
 const HALVINGS: u32 = 6;
@@ -117,7 +126,9 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let tolerance = given(values, &TOLERANCE).unwrap_or(WITHIN * size);
     let crossings = crossings(polygon, &mirror, tolerance);
     let last = polygon.segments() as f64;
+    let drawn = drawn_half(polygon, &crossings);
     let (half, span) = match (keep, &crossings[..]) {
+        (None, _) | (_, [_, _]) if let Some(drawn) = drawn => drawn,
         (None, [_, ..]) => return nearest(input, polygon, &mirror, progress),
         (None, []) if polygon.is_periodic() => return nearest(input, polygon, &mirror, progress),
         (Some(Half::First), [first, second]) if polygon.is_periodic() => {
@@ -131,7 +142,37 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         (Some(Half::Second), [.., at]) => (Half::Second, [*at, last]),
         (_, []) => (nearer_end(polygon, &mirror), [0.0, last]),
     };
-    completed(input, (half, span), &mirror, tolerance, progress)
+    let overshoots = drawn == Some((half, span));
+    completed(
+        input,
+        (half, span, overshoots),
+        &mirror,
+        tolerance,
+        progress,
+    )
+}
+
+/// The half of a shape that an open curve is, where it goes on beyond the mirror plane by no more than an overshoot.
+fn drawn_half(polygon: &FloatPolygon, crossings: &[f64]) -> Option<(Half, [f64; 2])> {
+    if polygon.is_periodic() || crossings.is_empty() {
+        return None;
+    }
+    let last = polygon.segments() as f64;
+    let places: Vec<f64> = [&[0.0], crossings, &[last]].concat();
+    let parts = places.windows(2).map(|part| [part[0], part[1]]);
+    let parts = parts.map(|[from, to]| {
+        let length = arc_length_between(polygon, from, to, PRECISION);
+        (length, [from, to])
+    });
+    let parts: Vec<(f64, [f64; 2])> = parts.collect();
+    let whole: f64 = parts.iter().map(|(length, _)| length).sum();
+    let longest = parts.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    let (length, span) = longest?;
+    let half = match span[0] == 0.0 {
+        true => Half::First,
+        false => Half::Second,
+    };
+    (whole - length <= OVERSHOOT * length).then_some((half, span))
 }
 
 /// The mean of the curve and its image.
@@ -187,7 +228,7 @@ pub(super) fn smaller_side(polygon: &FloatPolygon) -> f64 {
 /// One half of the curve, or all of a curve on one side, with its image.
 fn completed(
     input: &Operands,
-    (half, span): (Half, [f64; 2]),
+    (half, span, overshoots): (Half, [f64; 2], bool),
     mirror: &Mirror,
     tolerance: f64,
     progress: &Progress,
@@ -211,7 +252,10 @@ fn completed(
     };
     let symmetric = whole.polygon;
     let deviation = whole.off + cut;
-    let replaced = replaced(polygon, span, &symmetric, progress)?;
+    let replaced = match overshoots {
+        true => None,
+        false => replaced(polygon, span, &symmetric, progress)?,
+    };
     let deviation_is = match (replaced, whole.bounded) {
         (Some(replaced), _) => Deviation::Measured(replaced.max(deviation)),
         (None, true) => Deviation::AtMost(deviation),
@@ -233,6 +277,10 @@ fn completed(
     }
     if closes {
         let told = "Both ends meet their images: the curve is closed".to_owned();
+        outcome.remarks.push(told);
+    }
+    if overshoots {
+        let told = "What went on beyond the axis is cut off".to_owned();
         outcome.remarks.push(told);
     }
     outcome.annotations.push(Annotation::Point(middle));

@@ -149,7 +149,7 @@ impl Inspector {
         if let ReferenceForm::Frame(frame) = own.curve.form() {
             widgets::section(ui, own.curve.form().label(), true, |ui| {
                 ui.push_id(id, |ui| {
-                    picture_panel::picture_ui(ui, editor, (own, frame), actions)
+                    picture_panel::picture_ui(ui, editor, (id, own, frame), actions)
                 });
             });
         } else {

@@ -8,7 +8,7 @@ use super::figures;
 use super::number_field::{FieldEvent, NumberField};
 use super::theme::{ROW, STEP};
 use super::widgets;
-use crate::document::{Picture, PictureSource, Reference};
+use crate::document::{CurveId, Picture, PictureSource, Reference};
 use crate::editor::{
     Editor, PICTURE_PLANES, PictureChange, measured_direction, picture_plane, told,
 };
@@ -22,7 +22,7 @@ const FIELD: f32 = 120.0;
 pub fn picture_ui(
     ui: &mut Ui,
     editor: &mut Editor,
-    (reference, frame): (&Reference, &Frame),
+    (id, reference, frame): (CurveId, &Reference, &Frame),
     actions: &mut Vec<Action>,
 ) {
     let Some(picture) = &reference.picture else {
@@ -43,7 +43,7 @@ pub fn picture_ui(
     ui.add_enabled_ui(may_change, |ui| {
         size_ui(ui, editor, frame, reference.curve.placement());
         plane_ui(ui, editor, reference.curve.placement());
-        true_size_ui(ui, editor, reference.curve.placement());
+        true_size_ui(ui, editor, (id, reference.curve.placement()));
     });
 }
 
@@ -56,6 +56,9 @@ fn file_ui(ui: &mut Ui, editor: &mut Editor, picture: &Picture, actions: &mut Ve
     let row = widgets::fact_row(ui, "File", &name);
     if let Some(path) = picture.file() {
         row.on_hover_text(path.display().to_string());
+    }
+    if let Some(reason) = editor.view().picture_fault(&picture.source) {
+        widgets::warning(ui, reason);
     }
     widgets::form_row(ui, "", |ui| {
         ui.spacing_mut().item_spacing.x = STEP;
@@ -112,8 +115,8 @@ fn plane_ui(ui: &mut Ui, editor: &mut Editor, placement: &Placement) {
 }
 
 /// Fields for the true distance and direction of two points that were measured on the picture.
-fn true_size_ui(ui: &mut Ui, editor: &mut Editor, placement: &Placement) {
-    let Some([from, to]) = editor.hand().measured() else {
+fn true_size_ui(ui: &mut Ui, editor: &mut Editor, (id, placement): (CurveId, &Placement)) {
+    let Some([from, to]) = editor.hand().measured_on(id, editor.document()) else {
         let text =
             "To scale it, measure two points (M): fields for their true distance appear here.";
         widgets::note(ui, text);

@@ -72,7 +72,9 @@ impl ToolPanel {
         draw_way_ui(ui, editor);
         match entry {
             Entry::Point(_) => {
-                degree_ui(ui, editor);
+                if editor.hand().draw_settings().way != DrawWay::Points {
+                    degree_ui(ui, editor);
+                }
                 widgets::form_row(ui, "Point", |ui| self.entry_ui(ui, editor, entry, 0.0));
                 leg_ui(ui, editor);
             }

@@ -7,10 +7,9 @@ use glam::{DMat3, DQuat, DVec3};
 
 use crate::document::{CurveId, Edit, Picture, PictureSource, Reference};
 use crate::editor::Editor;
-use crate::editor::hand::Measurement;
 use crate::editor::reply::{Note, Refusal, Reply};
 use crate::editor::view::NamedView;
-use crate::geometry::references::{Placement, ReferenceForm};
+use crate::geometry::references::{Placement, ReferenceError, ReferenceForm};
 use crate::io::disk;
 
 /// A view whose direction is off a picture's normal by less than this looks straight at it.
@@ -61,15 +60,10 @@ impl PictureChange {
     pub fn apply(&self, editor: &mut Editor) -> Reply {
         match self.edit(editor) {
             Ok(Some(edit)) => {
-                let measured = self.moved_measurement(editor);
                 if matches!(self, Self::Relink(_)) {
                     editor.view.pictures.retry();
                 }
-                let reply = editor.apply(self.label(), vec![edit]);
-                if let (Ok(_), Some(measured)) = (&reply, measured) {
-                    editor.hand.settings.measurement = Some(measured);
-                }
-                reply
+                editor.apply(self.label(), vec![edit])
             }
             Ok(None) => Ok(Note::silent()),
             Err(refusal) => {
@@ -121,18 +115,21 @@ impl PictureChange {
             }
             _ => {}
         }
-        let placement = self.placement(editor, &found)?;
+        let placement = self.placement(editor, (reference, &found))?;
         let curve = found.curve.clone().placed(placement);
         Ok((curve != found.curve).then_some(Edit::SetReference { reference, curve }))
     }
 
     /// The new placement of the frame.
-    fn placement(&self, editor: &Editor, found: &Reference) -> Result<Placement, Refusal> {
+    fn placement(
+        &self,
+        editor: &Editor,
+        (id, found): (CurveId, &Reference),
+    ) -> Result<Placement, Refusal> {
         let now = *found.curve.placement();
         let ReferenceForm::Frame(frame) = found.curve.form() else {
             return Ok(now);
         };
-        let centre = now.point((0.5 * frame.size()).extend(0.0));
         let placement = match self {
             Self::Width(width) => {
                 now.scaled_about(now.translation(), width / (frame.size().x * now.scale()))
@@ -140,36 +137,19 @@ impl PictureChange {
             Self::Height(height) => {
                 now.scaled_about(now.translation(), height / (frame.size().y * now.scale()))
             }
-            Self::Plane(plane) => {
-                now.rotated_about(centre, facing(*plane) * now.rotation().inverse())
-            }
+            Self::Plane(view) => stood(&now, *view),
             Self::TrueDistance(length) => {
-                let [from, to] = measured(editor)?;
+                let [from, to] = measured(editor, id)?;
                 now.scaled_about(from, length / from.distance(to))
             }
             Self::TrueDirection(angle) => {
-                let [from, to] = measured(editor)?;
+                let [from, to] = measured(editor, id)?;
                 let turn = turn_to(now.rotation(), [from, to], *angle);
                 now.rotated_about(from, turn)
             }
             _ => Ok(now),
         };
         Ok(placement.map_err(|error| error.to_string())?)
-    }
-
-    /// The measurement that goes along with the picture, if the change is made by it.
-    fn moved_measurement(&self, editor: &Editor) -> Option<Measurement> {
-        let (_, found, _) = active_picture(editor)?;
-        let [from, to] = editor.hand.measured()?;
-        let by = to - from;
-        let by = match self {
-            Self::TrueDistance(length) => by * (length / by.length()),
-            Self::TrueDirection(angle) => {
-                turn_to(found.curve.placement().rotation(), [from, to], *angle) * by
-            }
-            _ => return None,
-        };
-        Some(Measurement::of([from, from + by]))
     }
 }
 
@@ -180,10 +160,24 @@ fn active_picture(editor: &Editor) -> Option<(CurveId, Arc<Reference>, Picture)>
     Some((id, reference, picture))
 }
 
-/// The two measured points, if they are apart.
-fn measured(editor: &Editor) -> Result<[DVec3; 2], Refusal> {
-    let measured = editor.hand.measured();
+/// The two measured points of a picture.
+fn measured(editor: &Editor, id: CurveId) -> Result<[DVec3; 2], Refusal> {
+    let measured = editor.hand.measured_on(id, editor.document());
     measured.ok_or_else(|| "Measure two points of the picture first".into())
+}
+
+/// The placement in the plane of a view, with the turn in the plane, the lower left corner as far to the right and as high
+/// as before, and on the plane through the origin, on which clicks draw.
+fn stood(placement: &Placement, view: NamedView) -> Result<Placement, ReferenceError> {
+    let before = picture_plane(placement)
+        .unwrap_or(NamedView::Xy)
+        .orientation();
+    let now = view.orientation();
+    let corner = before.flatten(placement.translation());
+    let along = before.flatten(placement.rotation() * DVec3::X);
+    let turn = DQuat::from_axis_angle(now.towards(), along.to_angle());
+    let translation = corner.x * now.right() + corner.y * now.up();
+    Placement::new(turn * facing(view), placement.scale(), translation)
 }
 
 /// The turn about a picture's normal that brings the second measured point into a direction.

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
-use crate::document::CurveId;
+use crate::document::{CurveId, Document};
 use crate::editor::hand::cycle::Cycle;
 use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::GestureMachine;
@@ -58,10 +58,11 @@ impl Hand {
     /// The steps that arrow keys can have.
     pub const NUDGE_STEPS: RangeInclusive<f64> = 1e-12..=1e12;
 
-    /// The two points of the finished measurement, if they are apart.
-    pub fn measured(&self) -> Option<[DVec3; 2]> {
-        let ends = self.settings.measurement.as_ref()?.ends();
-        Some(ends).filter(|[from, to]| from != to)
+    /// The two measured points of a picture, if they are apart.
+    pub fn measured_on(&self, picture: CurveId, document: &Document) -> Option<[DVec3; 2]> {
+        let measurement = self.settings.measurement.as_ref();
+        let measurement = measurement.filter(|it| it.picture() == Some(picture))?;
+        Some(measurement.ends(document)).filter(|[from, to]| from != to)
     }
 
     /// Forget the selection and the settings of a document; the tool stays in use, and the way of drawing.

@@ -28,7 +28,6 @@ pub use following::{Follow, Following};
 pub use hand::Hand;
 pub use input::{Button, Input, Key, Modifiers};
 pub use menu_request::{MenuRequest, MenuSubject};
-pub(in crate::editor) use tools::Measurement;
 pub use tools::{
     Arrangement, Cursor, DrawSettings, DrawWay, Entry, ToolKind, ToolRow, Transformation,
 };

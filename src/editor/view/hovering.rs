@@ -132,10 +132,13 @@ impl Sight<'_> {
         let (planar, jet) = (samples.is_planar(), shape.jet(u));
         let curvature = jet.curvature_of(planar);
         let parameter = match reference {
-            Some(it) => format!("t {:.4}", it.reference().curve.parameter(u)),
-            None => format!("u {u:.4}"),
+            // The edge of a picture is no curve.
+            Some(it) if it.reference().picture.is_some() => None,
+            Some(it) => Some(format!("t {:.4}", it.reference().curve.parameter(u))),
+            None => Some(format!("u {u:.4}")),
         };
-        let mut lines = vec![parameter, self.coordinates(jet.point, !planar)];
+        let place = self.coordinates(jet.point, !planar);
+        let mut lines: Vec<String> = parameter.into_iter().chain([place]).collect();
         if is_smooth {
             let display = self.view.curvature_display;
             let unit = self.document().unit();

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use crate::analysis::{AnalysisCache, CurveAnalysis, Item, Joints, ReferenceAnalysis};
-use crate::document::{CurveId, Document};
+use crate::document::{CurveId, Document, PictureSource};
 use crate::editor::jobs::Client;
 use crate::editor::jobs::comparing::Comparing;
 use crate::editor::jobs::guides::{FeatureOf, Guides};
@@ -139,6 +139,15 @@ impl View {
     /// The curve or reference that a curve or reference is compared with; it may be no longer in the document.
     pub fn compared(&self, id: CurveId) -> Option<CurveId> {
         self.comparisons.get(&id).copied()
+    }
+
+    /// Why a picture cannot be shown, once that is known.
+    pub fn picture_fault(&self, source: &PictureSource) -> Option<&str> {
+        self.pictures
+            .get(source)?
+            .as_ref()
+            .err()
+            .map(String::as_str)
     }
 
     /// Compare a curve or a reference with another one, or with nothing.

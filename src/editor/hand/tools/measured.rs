@@ -7,6 +7,7 @@ use crate::document::{CurveId, Document};
 use crate::editor::view::Sight;
 use crate::editor::view::scene::{Mark, MeasuredFigure};
 use crate::geometry::arc_length_between;
+use crate::geometry::references::ReferenceForm;
 
 /// To what part of itself an arc length is found.
 const TOLERANCE: f64 = 1e-12;
@@ -32,6 +33,15 @@ pub struct Measurement {
     from: DVec3,
     to: DVec3,
     arc: Option<MeasuredArc>,
+    on_picture: Option<OnPicture>,
+}
+
+/// Two points of a picture.
+#[derive(Clone, Debug)]
+struct OnPicture {
+    id: CurveId,
+    /// The points before its frame is placed.
+    ends: [DVec3; 2],
 }
 
 /// The arc between two points of a curve.
@@ -51,31 +61,38 @@ impl Measurement {
             from: from.point,
             to: to.point,
             arc: MeasuredArc::between(from, to, document),
+            on_picture: OnPicture::of([from.point, to.point], document),
         }
     }
 
-    /// The measurement of two points.
-    pub(in crate::editor) fn of([from, to]: [DVec3; 2]) -> Self {
-        let arc = None;
-        Self { from, to, arc }
+    /// Its points: those on a picture go along with it.
+    pub(in crate::editor) fn ends(&self, document: &Document) -> [DVec3; 2] {
+        let placed = self.on_picture.as_ref().and_then(|on| {
+            let reference = document.reference(on.id)?;
+            reference.framed()?;
+            let placement = reference.curve.placement();
+            Some(on.ends.map(|end| placement.point(end)))
+        });
+        placed.unwrap_or([self.from, self.to])
     }
 
-    /// Its points.
-    pub fn ends(&self) -> [DVec3; 2] {
-        [self.from, self.to]
+    /// The picture that both points lie on.
+    pub(in crate::editor) fn picture(&self) -> Option<CurveId> {
+        self.on_picture.as_ref().map(|on| on.id)
     }
 
     /// The figures. Once the curve has changed, the arc length is to plotting accuracy, as long as both points
     /// lie on it.
     pub(super) fn figures(&self, sight: Sight<'_>) -> Vec<MeasuredFigure> {
-        let mut figures = figures(self.from, self.to);
+        let [from, to] = self.ends(sight.document());
+        let mut figures = figures(from, to);
         figures.extend(self.arc_length(sight));
         figures
     }
 
     /// The ruler with the figures.
     pub(in crate::editor) fn marks(&self, sight: Sight<'_>) -> [Mark; 2] {
-        ruler([self.from, self.to], self.figures(sight), sight)
+        ruler(self.ends(sight.document()), self.figures(sight), sight)
     }
 
     fn arc_length(&self, sight: Sight<'_>) -> Option<MeasuredFigure> {
@@ -90,6 +107,27 @@ impl Measurement {
             return None;
         }
         plotted_arc_length(arc.id, arc.parameters, sight)
+    }
+}
+
+impl OnPicture {
+    /// The picture in front that both points lie on.
+    fn of(ends: [DVec3; 2], document: &Document) -> Option<Self> {
+        let references = document.references().filter(|(_, it)| it.visible);
+        let on = references.filter_map(|(id, reference)| {
+            let ReferenceForm::Frame(frame) = reference.curve.form() else {
+                return None;
+            };
+            let placement = reference.curve.placement();
+            let turned = placement.rotation().inverse();
+            let ends = ends.map(|end| turned * (end - placement.translation()) / placement.scale());
+            let holds = |end: DVec3| {
+                let end = end.truncate();
+                end.cmpge(DVec2::ZERO).all() && end.cmple(frame.size()).all()
+            };
+            ends.into_iter().all(holds).then_some(Self { id, ends })
+        });
+        on.last()
     }
 }
 

@@ -31,7 +31,6 @@ pub use transformation::Transformation;
 pub use transformed::Transformed;
 
 pub(in crate::editor) use draw::drawn_degree;
-pub(in crate::editor) use measured::Measurement;
 pub(in crate::editor) use transform::pivot;
 
 use delete::DeleteTool;
