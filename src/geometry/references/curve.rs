@@ -188,7 +188,9 @@ impl ReferenceCurve {
             if !values.iter().all(finite) {
                 return Err(ReferenceError::NotFinite { t });
             }
-            let farthest = values[0].abs().max_element();
+            // A curve that is placed far away moves as much as before.
+            let own = values[0] - self.placement.translation();
+            let farthest = own.abs().max_element();
             moves |= values[1].abs().max_element() * (to - from) > STANDING * farthest;
             // At a cusp the direction before counts.
             if let Some(direction) = vector::direction(values[1]) {
