@@ -238,3 +238,14 @@ fn an_end_in_space_follows_a_spiral() {
         assert!(document.meets(&matched), "{matched:?}");
     }
 }
+
+#[test]
+fn a_curve_that_is_placed_far_away_is_no_point() {
+    let circle = reference("circle").curve;
+    for far in [1e3, 1e16, 1e90] {
+        let placement = Placement::new(DQuat::IDENTITY, 1.0, far * DVec3::X);
+        let placement = placement.expect("a placement");
+        let made = ReferenceCurve::new(circle.form().clone(), circle.interval(), placement);
+        assert!(made.is_ok(), "{far:e}");
+    }
+}
