@@ -155,7 +155,8 @@ mod tests {
         };
         let drawings = ".dxf, .step, .stp, .p21, .ap242, .igs, .iges, .3dm, .svg, .glif, .obj, .brep, .brp, .json";
         let tables = ".batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy";
-        let readable = format!("{tables}, .gpx, {drawings}");
+        let pictures = ".png, .jpg, .jpeg, .webp, .tif, .tiff";
+        let readable = format!("{tables}, .gpx, {drawings}, {pictures}");
         check(
             "a.docx",
             &format!("“.docx” is not a format Batten knows: use one of {readable}"),

@@ -443,7 +443,7 @@ fn what_can_only_be_a_file_is_refused_as_one() {
         &["new.batten", "inspcet"],
         &format!("new.batten: {missing}"),
     );
-    let nameless = "the name has no extension that tells its format: add one of .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .gpx, .dxf, .step, .stp, .p21, .ap242, .igs, .iges, .3dm, .svg, .glif, .obj, .brep, .brp, .json";
+    let nameless = "the name has no extension that tells its format: add one of .batten, .csv, .tsv, .dat, .txt, .xyz, .pts, .asc, .xy, .gpx, .dxf, .step, .stp, .p21, .ap242, .igs, .iges, .3dm, .svg, .glif, .obj, .brep, .brp, .json, .png, .jpg, .jpeg, .webp, .tif, .tiff";
     folder.refused(&["inspcet"], &format!("inspcet: {nameless}"));
     folder.refused(&["./convrt"], &format!("./convrt: {nameless}"));
 }

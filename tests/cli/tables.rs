@@ -222,7 +222,7 @@ fn tables_are_told_by_more_extensions() {
     );
     let output = folder.run(&["inspect", "a.survey"]);
     let (_, told) = texts(&output);
-    let hint = ".json, or name its format with --from-format\n";
+    let hint = ".tiff, or name its format with --from-format\n";
     assert!(told.ends_with(hint), "{told}");
     let inspected = folder.inspect(&["a.survey", "--from-format", "dat"]);
     assert_eq!(points(&inspected).len(), 3);
