@@ -17,7 +17,7 @@ use std::fs;
 use batten::document::{Curve, Document, Reference};
 use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use batten::geometry::{FloatPolygon, PolygonKind};
-use batten::io::{Format, formats};
+use batten::io::{Format, PICTURE, formats};
 use cap::Cap;
 use glam::DVec3;
 
@@ -105,7 +105,8 @@ fn number(name: &str) -> Option<u64> {
 fn run(times: u64) {
     let times = number("BATTEN_MUTATIONS").unwrap_or(times) as usize;
     let seed = number("BATTEN_MUTATION_SEED").unwrap_or(1);
-    for format in formats::readable() {
+    // Damaged pictures are read beside their reader.
+    for format in formats::readable().filter(|it| *it != &PICTURE) {
         println!("{}", format.name);
         let samples = samples(format);
         assert!(!samples.is_empty(), "no sample of {}", format.name);
