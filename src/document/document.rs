@@ -122,18 +122,14 @@ impl Document {
     /// Give the files of pictures other paths.
     #[must_use]
     pub fn with_picture_files(mut self, path: impl Fn(&Path) -> PathBuf) -> Self {
-        for (_, reference) in &mut self.references {
-            let Some(picture) = &reference.picture else {
-                continue;
-            };
-            if let PictureSource::File(file) = &picture.source {
-                let source = PictureSource::File(path(file));
-                let opacity = picture.opacity;
-                let moved = Picture {
-                    opacity,
-                    ..Picture::new(source, picture.pixels)
-                };
-                Arc::make_mut(reference).picture = Some(moved);
+        let has_file = |it: &Reference| it.picture.as_ref().is_some_and(|it| it.file().is_some());
+        for (_, reference) in self.references.iter_mut().filter(|(_, it)| has_file(it)) {
+            if let Some(Picture {
+                source: PictureSource::File(file),
+                ..
+            }) = &mut Arc::make_mut(reference).picture
+            {
+                *file = path(file);
             }
         }
         self

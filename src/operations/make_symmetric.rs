@@ -246,7 +246,10 @@ fn completed(
             closed([first, second], mirror, tolerance, progress)?
         }
         Ok(()) if polygon.is_periodic() => return Ok(corner(id, joint_of(second, first).angle)),
-        Ok(()) => merged([first, second], mirror, tolerance, progress)?,
+        Ok(()) => match merged([first, second], mirror, tolerance, progress) {
+            Err(OperationError::Merge(MergeError::NotFound)) => return Ok(ripples(id)),
+            merged => merged?,
+        },
         Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
         Err(_) => bridged([first, second], mirror, progress)?,
     };
@@ -488,6 +491,17 @@ fn corner(id: CurveId, angle: f64) -> Outcome {
         id,
         format!(
             "The curve meets its image at a corner of {angle}°: turn its end perpendicular to the axis first"
+        ),
+    )
+}
+
+/// Say that no curve across the axis is as fair as the half.
+fn ripples(id: CurveId) -> Outcome {
+    let label = TOLERANCE.label;
+    refused(
+        id,
+        format!(
+            "No curve as fair as the half was found across the axis: turn its end perpendicular to the axis, or raise “{label}”"
         ),
     )
 }

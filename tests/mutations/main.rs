@@ -13,6 +13,7 @@ mod mutate;
 use std::alloc::System;
 use std::cell::Cell;
 use std::fs;
+use std::io::Cursor;
 
 use batten::document::{Curve, Document, Reference};
 use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
@@ -20,9 +21,13 @@ use batten::geometry::{FloatPolygon, PolygonKind};
 use batten::io::{Format, PICTURE, formats};
 use cap::Cap;
 use glam::DVec3;
+use image::{ImageFormat, Rgb, RgbImage};
 
 /// The bytes that reading one of these small files may take beside what there is.
 const MEMORY: usize = 64 << 20;
+
+/// The same of a picture: a damaged TIFF makes its library reserve room for 128 MB of a list's entries.
+const PICTURE_MEMORY: usize = 256 << 20;
 
 #[global_allocator]
 static ALLOCATOR: Cap<System> = Cap::new(System, usize::MAX);
@@ -77,8 +82,23 @@ fn samples(format: &Format) -> Vec<Vec<u8>> {
     });
     let known = READ_ONLY.iter().filter(|(name, _)| *name == format.name);
     let known = known.map(|(_, text)| text.as_bytes().to_vec());
-    let samples = written.chain(known).chain(corpus(format));
+    let pictures = (format.name == PICTURE.name).then(pictures);
+    let pictures = pictures.into_iter().flatten();
+    let samples = written.chain(known).chain(pictures);
+    let samples = samples.chain(corpus(format));
     samples.filter(|bytes| format.read(bytes).is_ok()).collect()
+}
+
+/// A small picture in every format.
+fn pictures() -> Vec<Vec<u8>> {
+    use ImageFormat::{Jpeg, Png, Tiff, WebP};
+    let picture = RgbImage::from_fn(19, 12, |x, y| Rgb([(9 * x) as u8, (17 * y) as u8, 80]));
+    let encoded = [Png, Jpeg, WebP, Tiff].map(|format| {
+        let mut bytes = Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, format).expect("a picture");
+        bytes.into_inner()
+    });
+    encoded.to_vec()
 }
 
 /// The small files of the folder that `BATTEN_CORPUS` names.
@@ -105,16 +125,19 @@ fn number(name: &str) -> Option<u64> {
 fn run(times: u64) {
     let times = number("BATTEN_MUTATIONS").unwrap_or(times) as usize;
     let seed = number("BATTEN_MUTATION_SEED").unwrap_or(1);
-    // Damaged pictures are read beside their reader.
-    for format in formats::readable().filter(|it| *it != &PICTURE) {
+    for format in formats::readable() {
         println!("{}", format.name);
         let samples = samples(format);
         assert!(!samples.is_empty(), "no sample of {}", format.name);
         let [read, refused] = [const { Cell::new(0) }; 2];
         let times = times.div_ceil(samples.len());
+        let memory = match *format == PICTURE {
+            true => PICTURE_MEMORY,
+            false => MEMORY,
+        };
         mutate::all(&samples, times, seed, |bytes| {
             ALLOCATOR
-                .set_limit(ALLOCATOR.allocated() + MEMORY)
+                .set_limit(ALLOCATOR.allocated() + memory)
                 .expect("a limit");
             let result = format.read(bytes);
             ALLOCATOR.set_limit(usize::MAX).expect("no limit");

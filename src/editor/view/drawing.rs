@@ -68,11 +68,10 @@ impl View {
     fn drawn_pictures(&self, document: &Document) -> impl Iterator<Item = PictureScene> {
         let orientation = &self.viewport.orientation;
         let references = document.references().filter(|(_, it)| it.visible);
-        references.filter_map(move |(id, reference)| {
+        references.filter_map(move |(_, reference)| {
             let (picture, [corner, across, up]) = reference.framed()?;
             let corner = orientation.flatten(corner);
             Some(PictureScene {
-                id,
                 corner,
                 sides: [across, up].map(|side| orientation.flatten(side)),
                 opacity: picture.opacity,

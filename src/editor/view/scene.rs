@@ -37,8 +37,6 @@ pub struct Scene {
 /// A picture in its frame.
 #[derive(Clone, Debug)]
 pub struct PictureScene {
-    /// The reference with the frame.
-    pub id: CurveId,
     /// The lower left corner.
     pub corner: DVec2,
     /// The vectors along the lower and along the left side.

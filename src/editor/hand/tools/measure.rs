@@ -129,7 +129,8 @@ impl Tool for MeasureTool {
             (Some(from), Gesture::Click(place) | Gesture::DragEnd(place)) => {
                 self.from = Some(from);
                 let to = self.place(context.model(place), context);
-                let between = |from| Measurement::between(&from, &to, context.document);
+                let active = context.selection.active();
+                let between = |from| Measurement::between(&from, &to, context.document, active);
                 return vec![measured(self.from.take().map(between), context)];
             }
             (None, Gesture::Click(place)) => return self.begin(place, None, context),

@@ -56,12 +56,18 @@ struct MeasuredArc {
 }
 
 impl Measurement {
-    pub(super) fn between(from: &Place, to: &Place, document: &Document) -> Self {
+    /// Measure between two points; on a picture if it is the active item and holds both.
+    pub(super) fn between(
+        from: &Place,
+        to: &Place,
+        document: &Document,
+        active: Option<CurveId>,
+    ) -> Self {
         Self {
             from: from.point,
             to: to.point,
             arc: MeasuredArc::between(from, to, document),
-            on_picture: OnPicture::of([from.point, to.point], document),
+            on_picture: active.and_then(|id| OnPicture::of(id, [from.point, to.point], document)),
         }
     }
 
@@ -111,23 +117,20 @@ impl Measurement {
 }
 
 impl OnPicture {
-    /// The picture in front that both points lie on.
-    fn of(ends: [DVec3; 2], document: &Document) -> Option<Self> {
-        let references = document.references().filter(|(_, it)| it.visible);
-        let on = references.filter_map(|(id, reference)| {
-            let ReferenceForm::Frame(frame) = reference.curve.form() else {
-                return None;
-            };
-            let placement = reference.curve.placement();
-            let turned = placement.rotation().inverse();
-            let ends = ends.map(|end| turned * (end - placement.translation()) / placement.scale());
-            let holds = |end: DVec3| {
-                let end = end.truncate();
-                end.cmpge(DVec2::ZERO).all() && end.cmple(frame.size()).all()
-            };
-            ends.into_iter().all(holds).then_some(Self { id, ends })
-        });
-        on.last()
+    /// Two points as those of a picture, if it holds both.
+    fn of(id: CurveId, ends: [DVec3; 2], document: &Document) -> Option<Self> {
+        let curve = &document.reference(id)?.curve;
+        let ReferenceForm::Frame(frame) = curve.form() else {
+            return None;
+        };
+        let placement = curve.placement();
+        let turned = placement.rotation().inverse();
+        let ends = ends.map(|end| turned * (end - placement.translation()) / placement.scale());
+        let holds = |end: DVec3| {
+            let end = end.truncate();
+            end.cmpge(DVec2::ZERO).all() && end.cmple(frame.size()).all()
+        };
+        ends.into_iter().all(holds).then_some(Self { id, ends })
     }
 }
 

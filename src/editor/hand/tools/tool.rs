@@ -306,8 +306,7 @@ impl Context<'_> {
     /// The snap of a place of the view plane, if snapping is on and something is near.
     pub fn snap(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
         let near = || {
-            self.object_snap(place, carried)
-                .or_else(|| self.on_reference(place, carried))
+            self.item_snap(place, carried)
                 .or_else(|| self.on_line_or_grid(place, carried))
         };
         self.snaps().then(near).flatten()
@@ -321,17 +320,20 @@ impl Context<'_> {
         if !follows || self.ignores_edges || self.modifiers.ctrl {
             return self.snap(place, &carried);
         }
-        let object = || {
-            self.object_snap(place, &carried)
-                .or_else(|| self.on_reference(place, &carried))
-        };
+        let item = || self.item_snap(place, &carried);
         let edge = || {
             let edge = self.hits.picture_edge(place)?;
             let point = self.viewport.grounded(edge);
             Some(Snap::to(point, "Edge of picture"))
         };
-        let found = self.snapping.then(object).flatten().or_else(edge);
+        let found = self.snapping.then(item).flatten().or_else(edge);
         found.or_else(|| self.snap(place, &carried))
+    }
+
+    /// The point, the intersection or the place on a reference near a place of the view plane.
+    fn item_snap(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
+        self.object_snap(place, carried)
+            .or_else(|| self.on_reference(place, carried))
     }
 
     /// Whether snapping is on: Ctrl turns it round.
