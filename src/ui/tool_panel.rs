@@ -294,7 +294,8 @@ fn draw_way_ui(ui: &mut Ui, editor: &mut Editor) {
     };
     let ways: Vec<DrawWay> = DrawWay::ALL.into_iter().filter(is_offered).collect();
     let mut settings = editor.hand().draw_settings();
-    ui.horizontal(|ui| {
+    // Four ways are wider than a narrow panel.
+    ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = STEP;
         for way in ways {
             let is_chosen = match tool {
