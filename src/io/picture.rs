@@ -4,8 +4,9 @@ use std::io::Cursor;
 
 use exif::{In, Tag, Value};
 use glam::DVec2;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::metadata::Orientation;
-use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageReader, Limits};
 
 use super::error::{Problem, ReadError};
 use super::format::Format;
@@ -69,6 +70,26 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded, Problem> {
         size: picture.dimensions().into(),
         rgba: picture.into_raw(),
     })
+}
+
+impl Decoded {
+    /// Write the pixels as a PNG, quickly rather than small.
+    ///
+    /// # Errors
+    /// [`Problem::Picture`] if there are none, or fewer than the size says.
+    pub fn to_png(&self) -> Result<Vec<u8>, Problem> {
+        let mut bytes = Vec::new();
+        let encoder =
+            PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive);
+        let [width, height] = self.size;
+        let is_whole = self.rgba.len() as u64 == 4 * u64::from(width) * u64::from(height);
+        if !is_whole || self.rgba.is_empty() {
+            return Err(Problem::Picture("it has no pixels".to_owned()));
+        }
+        let written = encoder.write_image(&self.rgba, width, height, ExtendedColorType::Rgba8);
+        written.map_err(unreadable)?;
+        Ok(bytes)
+    }
 }
 
 /// Read a picture as a reference: a frame of the size that its resolution gives, with the picture embedded.

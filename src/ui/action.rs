@@ -205,7 +205,7 @@ impl Action {
             Self::CopyAs(CopyForm::Own | CopyForm::Table) => {
                 "Copy float vertices as a table for spreadsheets"
             }
-            Self::Paste => "Add copied curves, vertices, SVG paths or DXF text as new curves",
+            Self::Paste => "Add copied curves, vertices, SVG paths, DXF text or a picture",
             Self::Rename => "Rename in the list of curves; a double-click on a row does the same",
             Self::ToggleTheme => "Switch between the dark and the light theme",
             Self::ToggleToolNames => "Show the names of the tools beside their icons",

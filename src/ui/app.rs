@@ -21,6 +21,7 @@ use super::menu::menu_ui;
 use super::message::message_ui;
 use super::palette::Palette;
 use super::paper_panel::PaperPanel;
+use super::pictures::decoded;
 use super::plots::{self, Plots, Tab};
 use super::recovery::{self, Choice};
 use super::shell::Shell;
@@ -232,6 +233,9 @@ impl App {
                 KeyCommand::Action(action) if typing => self.actions.push(action),
                 KeyCommand::Action(action) => self.perform(context, action),
                 KeyCommand::Paste(text) => told(self.editor.paste_text(&text)),
+                KeyCommand::PastePicture(image) => {
+                    told(self.editor.paste_picture(&decoded(&image)));
+                }
             }
         }
     }

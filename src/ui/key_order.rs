@@ -102,7 +102,7 @@ fn moves_keyboard(event: &Event) -> bool {
 fn is_key(event: &Event) -> bool {
     match event {
         Event::Key { pressed, .. } => *pressed,
-        Event::Text(_) | Event::Paste(_) | Event::Copy | Event::Cut => true,
+        Event::Text(_) | Event::Paste(_) | Event::PasteImage(_) | Event::Copy | Event::Cut => true,
         _ => false,
     }
 }

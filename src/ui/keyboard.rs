@@ -1,6 +1,8 @@
 //! Keys: from egui's names to the editor's, and to the commands they stand for.
 
-use eframe::egui::{self, Context, Event, Id, Rect};
+use std::sync::Arc;
+
+use eframe::egui::{self, ColorImage, Context, Event, Id, Rect};
 
 use super::action::Action;
 use crate::editor::{Command, Editor, Key, Modifiers, Shortcut};
@@ -135,6 +137,8 @@ pub enum KeyCommand {
     Action(Action),
     /// Paste this text of the clipboard.
     Paste(String),
+    /// Paste this picture of the clipboard.
+    PastePicture(Arc<ColorImage>),
 }
 
 /// Turns keys into commands.
@@ -244,6 +248,7 @@ fn command_of(event: &Event, table: &[(Shortcut, Action)], typing: Typing) -> Op
         Event::Copy if is_free => Some(KeyCommand::Action(Action::Copy)),
         Event::Cut if is_free => Some(KeyCommand::Action(Action::Cut)),
         Event::Paste(text) if is_free => Some(KeyCommand::Paste(text.clone())),
+        Event::PasteImage(image) if is_free => Some(KeyCommand::PastePicture(image.clone())),
         Event::Key {
             key: pressed,
             pressed: true,

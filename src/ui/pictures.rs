@@ -12,6 +12,7 @@ use glam::DVec2;
 use super::brush::Brush;
 use super::theme;
 use crate::editor::{PictureScene, PictureTile, Pyramid, TILE};
+use crate::io::Decoded;
 
 /// The most tiles that are handed over in a frame, so that none takes long.
 const MOST_A_FRAME: usize = 4;
@@ -259,5 +260,14 @@ fn paint_reason(brush: &Brush<'_>, middle: DVec2, reason: &str) {
             theme::small_font(),
             colour,
         );
+    }
+}
+
+/// The pixels of a picture of the clipboard.
+pub fn decoded(image: &ColorImage) -> Decoded {
+    let pixels = image.pixels.iter().flat_map(Color32::to_srgba_unmultiplied);
+    Decoded {
+        size: image.size.map(|side| side as u32),
+        rgba: pixels.collect(),
     }
 }

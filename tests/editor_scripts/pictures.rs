@@ -11,7 +11,7 @@ use batten::editor::{
 use batten::geometry::distance::SideDeviation;
 use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use batten::geometry::{FloatPolygon, Progress};
-use batten::io::{Loss, PICTURE, TABLE, decode, disk};
+use batten::io::{Decoded, Loss, PICTURE, TABLE, decode, disk};
 use batten::operations::Value;
 use glam::{DVec2, DVec3};
 use image::{GrayImage, Luma};
@@ -435,6 +435,41 @@ fn half_an_outline_that_ends_beyond_the_axis_closes() {
     let off = off_the_vase(&polygon, 0.5 * PI, dot);
     println!("{} vertices, off {off:.3} pixels", polygon.vertices().len());
     assert!(polygon.is_periodic() && off <= 0.5, "{off} pixels");
+}
+
+#[test]
+fn a_pasted_picture_is_embedded_and_lies_beside_the_others() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn = picture([40, 30], 0.0, |at| at.x < 20.0);
+    let (mut script, first) = with(&folder.path().join("first.png"), &drawn);
+    let rgba: Vec<u8> = (0..60 * 50)
+        .flat_map(|at| [at as u8, 7, 9, 255 - (at % 3) as u8])
+        .collect();
+    let copied = Decoded {
+        size: [60, 50],
+        rgba: rgba.clone(),
+    };
+    let reply = script.editor.paste_picture(&copied).expect("a picture");
+    assert!(reply.text.starts_with("1 picture added"), "{}", reply.text);
+    let last = script.editor.document().references().last();
+    let (id, reference) = last.expect("a picture");
+    let source = &reference.picture.as_ref().expect("a picture").source;
+    let PictureSource::Embedded(bytes) = source else {
+        panic!("{source:?}");
+    };
+    let kept = decode(bytes).expect("a picture");
+    assert_eq!((kept.size, kept.rgba), (copied.size, rgba));
+    let [corner, across, _] = frame(&script, first);
+    let [other, ..] = frame(&script, id);
+    assert!(other.x > corner.x + across.x, "{other}");
+    assert_eq!(other.y, corner.y);
+    script.command(Command::Undo);
+    assert_eq!(script.editor.document().references().len(), 1);
+    let empty = Decoded {
+        size: [0, 0],
+        rgba: Vec::new(),
+    };
+    assert!(script.editor.paste_picture(&empty).is_err());
 }
 
 /// `BATTEN_PICTURES=DIR cargo test --test editor_scripts real_pictures -- --ignored --nocapture`

@@ -19,8 +19,8 @@ use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
 use crate::io::{
-    Export, ExportChoice, PROJECT, ReadError, Reading, Scope, TAB_TABLE, TABLE, WriteError,
-    formats, svg_path,
+    Decoded, Export, ExportChoice, PICTURE, PROJECT, Problem, ReadError, Reading, Scope, TAB_TABLE,
+    TABLE, WriteError, formats, svg_path,
 };
 
 /// The distance of copies from their originals, in screen points, right and down.
@@ -37,20 +37,39 @@ impl Editor {
             if read.is_empty() {
                 return Ok(Note::told("There are no curves on the clipboard"));
             }
-            let remarks = read.remarks.to_string();
-            let read = ReadDocument {
-                document: read.into_document()?,
-                name: String::new(),
-                remarks,
-            };
-            let incoming = Incoming {
-                purpose,
-                documents: vec![read],
-                files: None,
-            };
-            self.merge(incoming, None)
+            self.merge_pasted(read, purpose)
         });
         self.tell(reply)
+    }
+
+    /// Add a picture from the clipboard, embedded in the project, as one step. The message shows the reply.
+    ///
+    /// # Errors
+    /// [`Refusal`] if it has no pixels, or too many; nothing is changed then.
+    pub fn paste_picture(&mut self, picture: &Decoded) -> Reply {
+        let refused = |error: Problem| Refusal(error.to_string());
+        let bytes = picture.to_png().map_err(refused);
+        let read = bytes.and_then(|bytes| {
+            let read = PICTURE.read(&bytes);
+            read.map_err(|error| Refusal(error.to_string()))
+        });
+        let reply = read.and_then(|read| self.merge_pasted(read, Purpose::Import));
+        self.tell(reply)
+    }
+
+    fn merge_pasted(&mut self, read: Reading, purpose: Purpose) -> Reply {
+        let remarks = read.remarks.to_string();
+        let read = ReadDocument {
+            document: read.into_document()?,
+            name: String::new(),
+            remarks,
+        };
+        let incoming = Incoming {
+            purpose,
+            documents: vec![read],
+            files: None,
+        };
+        self.merge(incoming, None)
     }
 
     /// Make the text of what is selected, or of the active curve or reference if nothing is. The message shows the

@@ -1,13 +1,16 @@
 //! Adding documents that were read, in the document's unit. Where only they state a unit, the window asks
 //! for that of the document.
 
-use crate::document::{Document, Edit, MergeError};
+use glam::DVec3;
+
+use crate::document::{Document, Edit, MergeError, Reference};
 use crate::editor::Editor;
 use crate::editor::jobs::file_reading::{FileAnswer, Purpose};
 use crate::editor::jobs::filing::{FileTask, Incoming, UnitQuestion};
 use crate::editor::reply::{Note, Refusal, Reply, with_lines};
 use crate::editor::view::Look;
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::references::Placement;
 use crate::io::counted_content;
 
 /// Merged documents: the edits that add them, their remarks, and the receiving document afterwards.
@@ -126,6 +129,49 @@ impl Editor {
     }
 }
 
+/// The space between pictures side by side, as a share of the width of the new one.
+const BETWEEN_PICTURES: f64 = 0.05;
+
+/// Put a picture to the right of the others if it would lie on one of them.
+fn beside_others(document: &Document, picture: Reference) -> Reference {
+    let Some((_, [corner, across, _])) = picture.framed() else {
+        return picture;
+    };
+    let frames = document.references().filter_map(|(_, it)| it.framed());
+    let frames: Vec<[DVec3; 3]> = frames.map(|(_, frame)| frame).collect();
+    let width = across.length();
+    let is_own = |[other, ..]: &&[DVec3; 3]| other.distance(corner) < BETWEEN_PICTURES * width;
+    let Some(along) = across
+        .try_normalize()
+        .filter(|_| frames.iter().any(|it| is_own(&it)))
+    else {
+        return picture;
+    };
+    let right = |[corner, across, up]: &[DVec3; 3]| {
+        let corners = [
+            *corner,
+            *corner + *across,
+            *corner + *up,
+            *corner + *across + *up,
+        ];
+        corners
+            .map(|it| it.dot(along))
+            .into_iter()
+            .fold(f64::NEG_INFINITY, f64::max)
+    };
+    let most = frames.iter().map(right).fold(f64::NEG_INFINITY, f64::max);
+    let by = most + BETWEEN_PICTURES * width - corner.dot(along);
+    let own = *picture.curve.placement();
+    let moved = Placement::new(own.rotation(), own.scale(), own.translation() + by * along);
+    match moved {
+        Ok(placement) => Reference {
+            curve: picture.curve.clone().placed(placement),
+            ..picture
+        },
+        Err(_) => picture,
+    }
+}
+
 fn merged(
     mut document: Document,
     incoming: &Incoming,
@@ -134,8 +180,15 @@ fn merged(
     let (mut edits, mut lines) = (Vec::new(), Vec::new());
     for read in &incoming.documents {
         let merge = document.merging(&read.document, assumed)?;
-        document = document.edited(merge.edits.clone())?;
-        edits.extend(merge.edits);
+        let placed = merge.edits.into_iter().map(|edit| match edit {
+            Edit::AddReference(picture) => {
+                Edit::AddReference(Box::new(beside_others(&document, *picture)))
+            }
+            edit => edit,
+        });
+        let placed: Vec<Edit> = placed.collect();
+        document = document.edited(placed.clone())?;
+        edits.extend(placed);
         let remark = merge.remark.map(|remark| remark.to_string());
         let remarks = read.remarks.lines().map(str::to_owned).chain(remark);
         lines.extend(remarks.map(|remark| format!("{}{remark}", read.name)));
