@@ -5,7 +5,7 @@ use super::extras::Extras;
 use super::group::Group;
 use super::locked_vertices::LockedVertices;
 use crate::geometry::end_correction::EndTarget;
-use crate::geometry::{End, FloatPolygon};
+use crate::geometry::{End, FloatPolygon, PolygonError, Symmetry};
 
 /// The identity of a curve or of a reference within its document; it survives every edit. Both are counted together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -89,6 +89,8 @@ pub struct Curve {
     pub locked_vertices: LockedVertices,
     /// Where the ends shall be.
     pub targets: EndTargets,
+    /// The rule that it is its own mirror image, if it shall stay so.
+    pub symmetry: Option<Symmetry>,
     /// What its file said of it that this program does not know. Every edit keeps it; copies and
     /// parts split off are curves of their own and have none.
     pub extras: Extras,
@@ -159,6 +161,11 @@ impl Curve {
         }
     }
 
+    pub(super) fn refused(&self, error: PolygonError) -> EditError {
+        let name = self.name.clone();
+        EditError::Polygon { name, error }
+    }
+
     fn refused_vertex(&self, vertex: usize) -> EditError {
         let name = self.name.clone();
         EditError::LockedVertex { name, vertex }
@@ -175,6 +182,7 @@ impl Curve {
             polygon,
             locked_vertices: LockedVertices::default(),
             targets: EndTargets::default(),
+            symmetry: None,
             extras: Extras::default(),
         }
     }

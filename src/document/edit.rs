@@ -16,7 +16,7 @@ use super::renumbering::Renumbering;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::ReferenceCurve;
-use crate::geometry::{End, FloatPolygon, PolygonError};
+use crate::geometry::{End, FloatPolygon, PolygonError, Symmetry};
 
 /// A change to a document.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,6 +116,13 @@ pub enum Edit {
         /// The new target.
         target: Option<EndTarget>,
     },
+    /// Make a curve symmetric, by the mean of its halves, and keep it so; or let each half change alone.
+    SetSymmetry {
+        /// The curve.
+        curve: CurveId,
+        /// The rule, for as many vertices as the curve has.
+        symmetry: Option<Symmetry>,
+    },
     /// Match an end to a place of another curve or of a reference, in place of its earlier match.
     SetMatch(EndMatch),
     /// Let an end be no longer matched; its target stays.
@@ -159,7 +166,8 @@ pub enum Edit {
 }
 
 impl Document {
-    /// Make some edits in a copy, one after the other; then matched ends follow.
+    /// Make some edits in a copy, one after the other; then the other halves of symmetric curves and matched ends
+    /// follow.
     ///
     /// # Errors
     /// [`EditError`] of the first edit that cannot be made.
@@ -180,11 +188,12 @@ impl Document {
         for edit in edits {
             document.apply(edit)?;
         }
+        document.keep_symmetries(self)?;
         document.follow(self, hasty);
         Ok(document)
     }
 
-    /// Make one edit. Matched ends do not follow: see [`Document::edited`].
+    /// Make one edit. Other halves and matched ends do not follow: see [`Document::edited`].
     ///
     /// # Errors
     /// [`EditError`]; the document is unchanged then.
@@ -235,9 +244,14 @@ impl Document {
             Edit::SetTarget { curve, end, target } => {
                 let found = self.curve(curve).ok_or(EditError::NoSuchCurve)?;
                 found.check_visible()?;
+                let is_symmetric = found.symmetry.is_some();
                 self.check_unmatched(curve, end)?;
+                if is_symmetric {
+                    self.check_unmatched(curve, end.other())?;
+                }
                 self.change(curve, |curve| curve.targets.set(end, target))
             }
+            Edit::SetSymmetry { curve, symmetry } => self.set_symmetry(curve, symmetry),
             Edit::SetMatch(matched) => self.set_match(matched),
             Edit::RemoveMatch { curve, end } => {
                 self.remove_match(curve, end);
@@ -365,6 +379,25 @@ impl Document {
         Ok(())
     }
 
+    fn set_symmetry(&mut self, id: CurveId, symmetry: Option<Symmetry>) -> Result<(), EditError> {
+        let index = self.position(id).ok_or(EditError::NoSuchCurve)?;
+        let are_matched = End::BOTH.map(|end| self.match_of(id, end).is_some());
+        let shared = &mut self.curves[index].1;
+        shared.check_editable()?;
+        if symmetry.is_some() && are_matched == [true, true] {
+            let name = shared.name.clone();
+            return Err(EditError::SymmetricEnds { name });
+        }
+        *shared = Arc::new(match symmetry {
+            Some(symmetry) => shared.with_symmetry(symmetry)?,
+            None => Curve {
+                symmetry: None,
+                ..Curve::clone(shared)
+            },
+        });
+        Ok(())
+    }
+
     fn set_polygon(&mut self, id: CurveId, polygon: FloatPolygon) -> Result<(), EditError> {
         let curve = self.curve(id).ok_or(EditError::NoSuchCurve)?;
         if !curve.polygon.has_numbers_of(&polygon) {
@@ -417,8 +450,12 @@ impl Document {
         curve.check_visible()?;
         check_vertices(curve, vertices.iter().copied())?;
         self.change(id, |curve| {
-            for vertex in vertices {
-                curve.locked_vertices.set(*vertex, locked);
+            let own: Vec<usize> = vertices
+                .iter()
+                .flat_map(|it| curve.dependents(*it))
+                .collect();
+            for vertex in own {
+                curve.locked_vertices.set(vertex, locked);
             }
         })
     }

@@ -87,6 +87,12 @@ pub enum EditError {
         /// The name of the one that it would follow.
         source_name: String,
     },
+    /// Both ends of a symmetric curve would be matched.
+    #[error("{} cannot be symmetric and follow with both ends: one is the image of the other", quoted(.name))]
+    SymmetricEnds {
+        /// The curve's name.
+        name: String,
+    },
     /// A reference cannot be where it would be put.
     #[error("{}: {error}", quoted(.name))]
     Reference {

@@ -108,6 +108,10 @@ impl Document {
             let name = curve.name.clone();
             return Err(EditError::MatchToItself { name });
         }
+        if curve.symmetry.is_some() && self.match_of(matched.curve, matched.end.other()).is_some() {
+            let name = curve.name.clone();
+            return Err(EditError::SymmetricEnds { name });
+        }
         if self.follows(matched.source, matched.curve) {
             return Err(EditError::MatchCycle {
                 name: curve.name.clone(),
@@ -233,11 +237,13 @@ impl Document {
             let target = self.match_of(id, end).and_then(|it| it.target(self));
             if let Some(target) = target {
                 corrected.targets.set(end, Some(target));
+                corrected.mirror_target(end);
                 matched.push((end, target));
             }
         }
         if !curve.locked
             && let Some(polygon) = met(curve, &matched, before, correct)
+            && let Some(polygon) = symmetric(curve, polygon, &matched)
         {
             corrected.polygon = polygon;
         }
@@ -285,6 +291,22 @@ fn met(
     let corrected = kept.or_else(corrected)?;
     curve.check_held(&corrected).ok()?;
     Some(corrected)
+}
+
+/// The corrected polygon of a symmetric curve, its matched end leading; `None` if that no longer meets its matches.
+fn symmetric(
+    curve: &Curve,
+    polygon: FloatPolygon,
+    matched: &[(End, EndTarget)],
+) -> Option<FloatPolygon> {
+    if curve.symmetry.is_none() {
+        return Some(polygon);
+    }
+    let (end, _) = matched.first()?;
+    let polygon = curve.led_by(polygon, *end).ok()?;
+    curve.check_held(&polygon).ok()?;
+    let meets = |(end, target): &(End, EndTarget)| is_met(&polygon, *end, target, MET);
+    matched.iter().all(meets).then_some(polygon)
 }
 
 /// The polygon whose ends are as they were before some of its vertices moved, if they met their targets then.

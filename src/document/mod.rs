@@ -18,6 +18,7 @@ mod names;
 mod picture;
 mod reference;
 mod renumbering;
+mod symmetric;
 mod unit_conversion;
 mod wording;
 

@@ -70,9 +70,10 @@ fn converted_curve(curve: &Curve, converted: &impl Fn(f64) -> f64) -> Result<Cur
     changed.polygon = polygon.map_err(refused)?;
     changed.targets.start = curve.targets.start.map(target);
     changed.targets.finish = curve.targets.finish.map(target);
-    match changed.targets.are_usable() {
-        true => Ok(changed),
-        false => Err(EditError::BadTarget),
+    match changed.symmetry {
+        _ if !changed.targets.are_usable() => Err(EditError::BadTarget),
+        Some(symmetry) => changed.kept_symmetric(symmetry, None),
+        None => Ok(changed),
     }
 }
 

@@ -406,11 +406,14 @@ impl Editor {
     }
 }
 
-/// Name the matches that are gone since an earlier state because their places are, a line each.
+/// Name the matches that are gone since an earlier state because their places are, and the curves that are no longer
+/// symmetric, a line each.
 fn dissolved(document: &Document, before: &Document) -> String {
     let lines = document.dissolved_since(before).map(|(matched, curve)| {
         let (end, name) = (matched.end.name(), quoted(&curve.name));
         format!("The {end} of {name} is no longer matched: what it followed is gone")
     });
-    lines.collect::<Vec<String>>().join("\n")
+    let asymmetric = document.asymmetric_since(before);
+    let asymmetric = asymmetric.map(|it| format!("{} does not stay symmetric", quoted(&it.name)));
+    lines.chain(asymmetric).collect::<Vec<String>>().join("\n")
 }

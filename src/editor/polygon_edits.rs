@@ -5,7 +5,8 @@ use glam::DVec3;
 use crate::document::{Curve, CurveId, Edit, EditError, ParameterSpan, Renumbering};
 use crate::geometry::{End, FloatPolygon, PolygonError};
 
-/// The edit that inserts a vertex into a curve's polygon, so that it gets number `index`.
+/// The edit that inserts a vertex into a curve's polygon, so that it gets number `index`, with its images where the curve
+/// is symmetric: these may come before it.
 ///
 /// # Errors
 /// [`PolygonError`] if the vertex cannot be used.
@@ -15,8 +16,15 @@ pub fn insertion(
     index: usize,
     vertex: DVec3,
 ) -> Result<Edit, PolygonError> {
-    let polygon = inserted(&curve.polygon, index, vertex)?;
-    let number = |old| Some(if old < index { old } else { old + 1 });
+    let mut all = insertions(curve, index, vertex);
+    all.sort_by_key(|(at, _)| *at);
+    let last_first = all.iter().rev();
+    let polygon = last_first
+        .clone()
+        .try_fold(curve.polygon.clone(), |polygon, (at, vertex)| {
+            inserted(&polygon, *at, *vertex)
+        })?;
+    let number = |old| Some(old + all.iter().filter(|(at, _)| *at <= old).count());
     Ok(Edit::Renumber {
         curve: id,
         renumbering: Renumbering::of_vertices(curve, &polygon, number),
@@ -24,19 +32,41 @@ pub fn insertion(
     })
 }
 
-/// The edit that lets a curve go on from an end to a point: see [`FloatPolygon::continued`].
+/// The number that an inserted vertex has once its images are there too.
+pub fn number_of_inserted(curve: &Curve, index: usize) -> usize {
+    let all = insertions(curve, index, DVec3::ZERO);
+    index + all.iter().filter(|(at, _)| *at < index).count()
+}
+
+fn insertions(curve: &Curve, index: usize, vertex: DVec3) -> Vec<(usize, DVec3)> {
+    match curve.symmetry {
+        Some(symmetry) => symmetry.insertions(&curve.polygon, index, vertex),
+        None => vec![(index, vertex)],
+    }
+}
+
+/// The edit that lets a curve go on from an end to a point, a symmetric one from its other end too: see
+/// [`FloatPolygon::continued`].
 ///
 /// # Errors
 /// As [`FloatPolygon::continued`].
 pub fn continuation(id: CurveId, curve: &Curve, end: End, to: DVec3) -> Result<Edit, PolygonError> {
     let old = &curve.polygon;
-    let polygon = old.continued(end, to)?;
-    let tail = old.tail(end);
-    let is_before = |vertex| match end {
-        End::Start => tail.contains(&vertex),
-        End::Finish => !tail.contains(&vertex),
+    let mirror = curve.symmetry.map(|symmetry| symmetry.mirror());
+    let image = mirror.map(|mirror| (end.other(), mirror.point(to)));
+    let ends: Vec<(End, DVec3)> = [(end, to)].into_iter().chain(image).collect();
+    let mut ends_of = ends.iter();
+    let polygon = ends_of.try_fold(old.clone(), |polygon, (end, to)| {
+        polygon.continued(*end, *to)
+    })?;
+    let is_before = |vertex: usize, end: End| match end {
+        End::Start => old.tail(end).contains(&vertex),
+        End::Finish => !old.tail(end).contains(&vertex),
     };
-    let number = |vertex| Some(vertex + usize::from(!is_before(vertex)));
+    let number = |vertex| {
+        let behind = ends.iter().filter(|(end, _)| !is_before(vertex, *end));
+        Some(vertex + behind.count())
+    };
     Ok(Edit::Renumber {
         curve: id,
         renumbering: Renumbering::of_vertices(curve, &polygon, number),
@@ -44,13 +74,18 @@ pub fn continuation(id: CurveId, curve: &Curve, end: End, to: DVec3) -> Result<E
     })
 }
 
-/// The edit that removes vertices from a curve's polygon, by their numbers in rising order.
+/// The edit that removes vertices from a curve's polygon, by their numbers, with their images where the curve is
+/// symmetric.
 ///
 /// # Errors
 /// [`EditError`] if one of them is locked, or the rest is no curve of this degree.
 pub fn deletion(id: CurveId, curve: &Curve, indices: &[usize]) -> Result<Edit, EditError> {
+    let dependents = indices.iter().flat_map(|it| curve.dependents(*it));
+    let mut indices: Vec<usize> = dependents.collect();
+    indices.sort_unstable();
+    indices.dedup();
     curve.check_vertices_unlocked(indices.iter().copied())?;
-    let polygon = without(&curve.polygon, indices).map_err(|error| EditError::Polygon {
+    let polygon = without(&curve.polygon, &indices).map_err(|error| EditError::Polygon {
         name: curve.name.clone(),
         error,
     })?;
@@ -83,7 +118,7 @@ pub fn replacement(id: CurveId, curve: &Curve, polygon: FloatPolygon) -> Edit {
 ///
 /// # Errors
 /// [`PolygonError`] if the vertex cannot be used.
-pub fn inserted(
+fn inserted(
     polygon: &FloatPolygon,
     index: usize,
     vertex: DVec3,
@@ -109,7 +144,7 @@ pub fn inserted(
     FloatPolygon::new(polygon.degree(), vertices, weights, polygon.is_periodic())
 }
 
-/// Remove vertices, by their numbers. The degree stays.
+/// Remove vertices, by their numbers in rising order. The degree stays.
 ///
 /// # Errors
 /// [`PolygonError::TooFewVertices`] if the rest is no curve of this degree.

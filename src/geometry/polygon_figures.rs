@@ -130,4 +130,12 @@ impl FloatPolygon {
     pub fn greville(&self, index: usize) -> f64 {
         index as f64 - 0.5 * (self.degree() as f64 - 1.0)
     }
+
+    /// Compute the parameter that belongs to vertex i of the clamped polygon: the mean of its knots, which are those of
+    /// this one within \[0, L\].
+    pub fn clamped_greville(&self, index: usize) -> f64 {
+        let (degree, last) = (self.degree(), self.segments() as f64);
+        let knot = |after: usize| (index as f64 + after as f64 - degree as f64).clamp(0.0, last);
+        (1..=degree).map(knot).sum::<f64>() / degree as f64
+    }
 }

@@ -51,6 +51,8 @@ pub enum Loss {
     LockedVertices,
     /// The targets of the ends.
     Targets,
+    /// That the curve stays symmetric.
+    Symmetry,
     /// A reference as a whole.
     Reference,
     /// A picture as a whole.
@@ -232,6 +234,7 @@ impl LossReport {
         self.add_if(has_locks, curve, Loss::LockedVertices);
         let has_targets = !curve.targets.list().is_empty();
         self.add_if(has_targets, curve, Loss::Targets);
+        self.add_if(curve.symmetry.is_some(), curve, Loss::Symmetry);
         self.add_if(!curve.extras.is_empty(), curve, Loss::UnknownKeys);
     }
 
@@ -417,6 +420,7 @@ impl Loss {
             Self::Locked => lost("the lock isn't"),
             Self::LockedVertices => lost("vertex locks aren't"),
             Self::Targets => lost("end targets aren't"),
+            Self::Symmetry => lost("the rule of symmetry isn't"),
             Self::Match { .. } if differs => lost("matches of ends aren't"),
             Self::Match { end, source } => {
                 let (end, source) = (end.name(), quoted(source));

@@ -33,6 +33,7 @@ mod project_curves;
 mod project_file;
 mod project_matches;
 mod project_references;
+mod project_symmetry;
 mod project_values;
 mod reading;
 mod sessions;

@@ -7,6 +7,7 @@ use super::error::{Place, Problem, ReadError};
 use super::loss::LossReport;
 use super::object::{Object, UnknownKeys, Version};
 use super::polygon::FilePolygon;
+use super::project_symmetry::ProjectSymmetry;
 use super::project_values::{ByName, Coordinates, Degree, Number, points};
 use super::reading::{Owner, Remark, Remarks};
 use crate::document::{Colour, Curve, EndTargets, Group};
@@ -41,6 +42,8 @@ pub(super) struct ProjectCurve<V> {
     locked_vertices: Vec<Number>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     targets: Option<Object<Targets<V>, V>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    symmetry: Option<Object<ProjectSymmetry, V>>,
 }
 
 #[derive(Deserialize, Serialize)]
@@ -88,6 +91,8 @@ impl<V> ProjectCurve<V> {
         };
         let [start, end] = [End::Start, End::Finish].map(target);
         let targets = (start.is_some() || end.is_some()).then_some(Targets { start, end });
+        let symmetry = curve.symmetry.as_ref();
+        let symmetry = symmetry.and_then(|it| ProjectSymmetry::of(it, planar));
         let polygon = FilePolygon::of(&curve.polygon, kind);
         losses.extend(curve, polygon.losses(&curve.polygon));
         let written = Self {
@@ -106,6 +111,7 @@ impl<V> ProjectCurve<V> {
             periodic: Some(polygon.periodic),
             locked_vertices: curve.locked_vertices.iter().map(Number).collect(),
             targets: targets.map(Object::new),
+            symmetry: symmetry.map(Object::new),
         };
         Object::new(written).with_extras(curve.extras.clone())
     }
@@ -117,6 +123,7 @@ impl<V> ProjectCurve<V> {
             targets.flat_map(|it| [&it.value.start, &it.value.end].into_iter().flatten());
         !self.locked_vertices.is_empty()
             || self.group.is_some()
+            || self.symmetry.is_some()
             || targets.any(|Object { value, .. }| {
                 value.curvature.is_some() || value.normal.is_some() || value.slope.is_some()
             })
@@ -162,7 +169,13 @@ impl<V> Object<ProjectCurve<V>, V> {
             let curve = (number, name.clone());
             remarks.add(Remark::unknown_key(&key, Owner::Targets { curve }));
         }
-        Ok(Curve {
+        let mut symmetry = UnknownKeys::default();
+        let given = symmetry.strip(value.symmetry);
+        for key in symmetry.0 {
+            let curve = (number, name.clone());
+            remarks.add(Remark::unknown_key(&key, Owner::Symmetry { curve }));
+        }
+        let curve = Curve {
             group: value.group.map(|group| group.0).unwrap_or_default(),
             colour: value.colour.map(|colour| colour.0),
             visible: value.visible.unwrap_or(true),
@@ -171,7 +184,17 @@ impl<V> Object<ProjectCurve<V>, V> {
             targets,
             extras,
             ..curve
-        })
+        };
+        let Some(given) = given else {
+            return Ok(curve);
+        };
+        let symmetry = given.into_symmetry(&curve.polygon);
+        let symmetric = symmetry.and_then(|it| curve.with_symmetry(it).ok());
+        Ok(symmetric.unwrap_or_else(|| {
+            let owner = (number, name.clone());
+            remarks.add(Remark::Asymmetric { curve: owner });
+            curve
+        }))
     }
 }
 

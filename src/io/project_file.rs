@@ -43,6 +43,7 @@ impl Version for Version1 {
         "curvature",
         "normal",
         "slope",
+        "symmetry",
     ];
 }
 

@@ -113,6 +113,11 @@ pub enum Remark {
     },
     /// What the reader of a drawing tells.
     Drawn(String),
+    /// A curve that is not symmetric as its file says.
+    Asymmetric {
+        /// The curve, counted from 1, with its name.
+        curve: (usize, String),
+    },
     /// A curve whose float polygon gives it back only nearly.
     CurveOff {
         /// The curve, counted from 1, with its name.
@@ -138,6 +143,11 @@ pub enum Owner {
     },
     /// The targets of a curve, which keep nothing unknown.
     Targets {
+        /// The curve, counted from 1, with its name.
+        curve: (usize, String),
+    },
+    /// The symmetry of a curve, which keeps nothing unknown.
+    Symmetry {
         /// The curve, counted from 1, with its name.
         curve: (usize, String),
     },
@@ -375,6 +385,11 @@ impl fmt::Display for Remark {
                         formatter,
                         "the key {key} of the matches is not known, has no effect and is not kept"
                     ),
+                    Owner::Symmetry { curve: owner } => write!(
+                        formatter,
+                        "{}: the key {key} of its symmetry is not known, has no effect and is not kept",
+                        curve(owner)
+                    ),
                     Owner::Targets { curve: owner } => write!(
                         formatter,
                         "{}: the key {key} of its targets is not known, has no effect and is not kept",
@@ -404,6 +419,11 @@ impl fmt::Display for Remark {
                 "{}: read from its {kind} polygon, the curve may be off by up to {}",
                 curve(owner),
                 rounded_up(*by)
+            ),
+            Self::Asymmetric { curve: owner } => write!(
+                formatter,
+                "{}: it is not symmetric as the file says, and does not stay so",
+                curve(owner)
             ),
             Self::Drawn(told) => formatter.write_str(told),
             Self::Latin1 => write!(formatter, "the text is not UTF-8 and was read as Latin-1"),

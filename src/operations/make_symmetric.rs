@@ -15,14 +15,15 @@ use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
-use crate::document::{CurveId, ParameterSpan};
+use crate::document::{CurveId, Document, Edit, ParameterSpan};
 use crate::geometry::approximation::close_halves;
 use crate::geometry::approximation::merging::{MergeError, check_joint, joint_of, merge};
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::{
-    BezierPolygon, End, FloatPolygon, Mirror, Progress, arc_length_between, counted, significant,
+    BezierPolygon, End, FloatPolygon, Mirror, Progress, Symmetry, arc_length_between, counted,
+    significant,
 };
 
 const AXIS: Parameter = Parameter {
@@ -49,6 +50,13 @@ const KEEP: Parameter = Parameter {
     },
 };
 
+const STAY: Parameter = Parameter {
+    name: "stay",
+    label: "Stay symmetric",
+    help: "Let later edits of one half change the other half too",
+    kind: Kind::Switch { default: false },
+};
+
 /// The share of the tolerance that cutting the curve in half may take.
 const OF_CUT: f64 = 0.1;
 
@@ -58,6 +66,9 @@ const OF_MERGE: [f64; 3] = [0.5, 0.2, 1.0];
 /// A part of an open curve beyond the axis is an overshoot up to this share of the rest: a half that was drawn a little
 /// too far. Of a longer one nobody knows which half is meant.
 const OVERSHOOT: f64 = 0.1;
+
+/// The share of a half that a bridge replaces where nothing else is found: less leaves no room to turn a corner off.
+const RECEDED: f64 = 0.04;
 
 /// The relative precision of lengths that are compared with that.
 const PRECISION: f64 = 1e-3;
@@ -84,7 +95,7 @@ pub static OPERATION: Operation = Operation {
     help: "Make the curve its own mirror image; a curve on one side is joined to its image",
     inputs: Inputs::One,
     each: true,
-    parameters: &[AXIS, FROM, TO, PLANE, KEEP, TOLERANCE],
+    parameters: &[AXIS, FROM, TO, PLANE, KEEP, TOLERANCE, STAY],
     check: check_editable,
     unused: super::mirror::unused,
     run,
@@ -118,9 +129,45 @@ impl Half {
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     check_free(input, id)?;
-    let polygon = &curve.polygon;
     let axes = values.choice(&AXIS, &[[true, false, false], [false, true, false]]);
     let mirror = plane_or_line(values, axes)?;
+    let mut outcome = made(input, values, mirror, progress)?;
+    let made = outcome.applied_to(&without_symmetry(input.document(), id)?)?;
+    // A rule that the curve has already would take the result back to its own axis.
+    let stays = values.switch(&STAY) || curve.symmetry.is_some();
+    if let (true, Some(made)) = (stays, made.curve(id)) {
+        let both = Symmetry::about_both(mirror, &made.polygon);
+        let both = both.filter(|it| it.holds(&made.polygon));
+        let one = Symmetry::about(mirror, &made.polygon);
+        let symmetry = both.or_else(|| Some(one).filter(|it| it.holds(&made.polygon)));
+        if symmetry.is_some() && symmetry != curve.symmetry {
+            outcome.edits.push(Edit::SetSymmetry {
+                curve: id,
+                symmetry,
+            });
+        }
+    }
+    Ok(outcome)
+}
+
+/// The document with a curve whose halves change alone.
+fn without_symmetry(document: &Document, curve: CurveId) -> Result<Document, OperationError> {
+    let edit = Edit::SetSymmetry {
+        curve,
+        symmetry: None,
+    };
+    Ok(document.edited([edit])?)
+}
+
+/// Make the curve symmetric, one that does not stay so.
+fn made(
+    input: &Operands,
+    values: &Values,
+    mirror: Mirror,
+    progress: &Progress,
+) -> Result<Outcome, OperationError> {
+    let (id, curve) = input.curve()?;
+    let polygon = &curve.polygon;
     let keep = values.choice(&KEEP, &[None, Some(Half::First), Some(Half::Second)]);
     let size = BezierPolygon::from_float(polygon).size();
     let tolerance = given(values, &TOLERANCE).unwrap_or(WITHIN * size);
@@ -247,7 +294,9 @@ fn completed(
         }
         Ok(()) if polygon.is_periodic() => return Ok(corner(id, joint_of(second, first).angle)),
         Ok(()) => match merged([first, second], mirror, tolerance, progress) {
-            Err(OperationError::Merge(MergeError::NotFound)) => return Ok(ripples(id)),
+            Err(OperationError::Merge(MergeError::NotFound)) => {
+                receded(&part, half, mirror, progress)?
+            }
             merged => merged?,
         },
         Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
@@ -268,7 +317,9 @@ fn completed(
         Half::First => [0.0, whole.joint[0]],
         Half::Second => [whole.joint[1], symmetric.segments() as f64],
     };
-    let spans = spans(span, new, polygon.segments() as f64);
+    let [from, to] = span;
+    let kept = whole.kept.map(|share| from + share * (to - from));
+    let spans = spans(kept, new, polygon.segments() as f64);
     let middle = symmetric.point(0.5 * (whole.joint[0] + whole.joint[1]));
     let (count, closes) = (symmetric.vertices().len(), symmetric.is_periodic());
     let mut outcome = Outcome::renumbered(input, symmetric, spans, deviation_is)?;
@@ -285,6 +336,10 @@ fn completed(
     if overshoots {
         let told = "What went on beyond the axis is cut off".to_owned();
         outcome.remarks.push(told);
+    }
+    if whole.kept != WHOLE {
+        let told = "The end is not perpendicular to the axis: a bridge replaces what is near it";
+        outcome.remarks.push(told.to_owned());
     }
     outcome.annotations.push(Annotation::Point(middle));
     let limit = Requirement::Limit {
@@ -348,6 +403,8 @@ struct Whole {
     method: &'static str,
     /// Where the first of both ends on it, and where the second begins.
     joint: [f64; 2],
+    /// The shares of the half between which it is kept.
+    kept: [f64; 2],
     /// How far it is from both.
     off: f64,
     /// Whether that is a bound.
@@ -357,6 +414,9 @@ struct Whole {
     /// What the user may not want of it.
     knuckle: Option<String>,
 }
+
+/// All of a half.
+const WHOLE: [f64; 2] = [0.0, 1.0];
 
 /// Merge a half with its image.
 fn merged(
@@ -387,6 +447,7 @@ fn merged(
     let merged = merged.map_err(|error| merge_error(error, &progress))?;
     Ok(Whole {
         joint: [merged.tracks[0].at(parts[0].segments() as f64); 2],
+        kept: WHOLE,
         polygon: merged.polygon,
         method: "merge",
         off: merged.deviation,
@@ -427,6 +488,7 @@ fn closed(
                 found.tracks[0].at(parts[0].segments() as f64),
                 found.tracks[1].at(0.0),
             ],
+            kept: WHOLE,
             polygon,
             method: "merge",
             off,
@@ -460,6 +522,7 @@ fn bridged(
     let symmetric = found.polygon.symmetrised(mirror)?;
     Ok(Whole {
         joint: found.joint,
+        kept: WHOLE,
         method: "bridge",
         // Both parts have as many segments, so that the bridge lies in the middle.
         off: found.polygon.deviation(&symmetric)?,
@@ -468,6 +531,33 @@ fn bridged(
         fault: fault
             .map(|fault| format!("{fault}: bring the end to the axis, perpendicular to it")),
         polygon: symmetric,
+    })
+}
+
+/// Bridge from a half to its image, in place of what lies near the axis: where both meet at a corner that no curve as fair
+/// comes near.
+fn receded(
+    part: &FloatPolygon,
+    half: Half,
+    mirror: &Mirror,
+    progress: &Progress,
+) -> Result<Whole, OperationError> {
+    let kept = match half.inner() {
+        End::Start => [RECEDED, 1.0],
+        End::Finish => [0.0, 1.0 - RECEDED],
+    };
+    let span = kept.map(|share| share * part.segments() as f64);
+    let (short, _) = cut(part, span, OF_CUT * WITHIN * part.size())?;
+    let image = image(&short, mirror)?;
+    let [first, second] = half.in_order(&short, &image);
+    let whole = bridged([first, second], mirror, progress)?;
+    let off = SideDeviation::of_curve(part, &whole.polygon, progress);
+    let off = off.map_err(|_| OperationError::Cancelled)?;
+    Ok(Whole {
+        off: off.largest.distance(),
+        bounded: false,
+        kept,
+        ..whole
     })
 }
 
@@ -491,17 +581,6 @@ fn corner(id: CurveId, angle: f64) -> Outcome {
         id,
         format!(
             "The curve meets its image at a corner of {angle}°: turn its end perpendicular to the axis first"
-        ),
-    )
-}
-
-/// Say that no curve across the axis is as fair as the half.
-fn ripples(id: CurveId) -> Outcome {
-    let label = TOLERANCE.label;
-    refused(
-        id,
-        format!(
-            "No curve as fair as the half was found across the axis: turn its end perpendicular to the axis, or raise “{label}”"
         ),
     )
 }

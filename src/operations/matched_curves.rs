@@ -101,6 +101,9 @@ pub fn told_of_bent(followers: &[Follower]) -> String {
 /// a curve bends or gets other features so is a warning.
 pub(super) fn tell(outcome: &mut Outcome, before: &Document, after: &Document) {
     outcome.remarks.extend(lost(before, after));
+    let asymmetric = after.asymmetric_since(before);
+    let asymmetric = asymmetric.map(|it| format!("{} does not stay symmetric", quoted(&it.name)));
+    outcome.remarks.extend(asymmetric);
     let changed: Vec<(CurveId, FloatPolygon)> = outcome.edits.iter().filter_map(changed).collect();
     let mut largest = Some(0.0_f64);
     for (id, polygon) in &changed {
@@ -115,7 +118,12 @@ pub(super) fn tell(outcome: &mut Outcome, before: &Document, after: &Document) {
         let moved = moved(polygon, &now.polygon);
         let by = moved.map_or_else(String::new, |moved| format!(", and moved by up to {moved}"));
         let name = quoted(&now.name);
-        let text = format!("{name} was corrected afterwards{by}, so that it meets its match");
+        let is_matched = after.matches().any(|it| it.curve == *id);
+        let so_that = match now.symmetry {
+            Some(_) if !is_matched => "it stays symmetric",
+            _ => "it meets its match",
+        };
+        let text = format!("{name} was corrected afterwards{by}, so that {so_that}");
         outcome.remarks.push(text);
     }
     outcome.deviation = match largest {

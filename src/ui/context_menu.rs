@@ -145,9 +145,10 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
                 let changing = changing.into_iter().map(operation).collect();
                 let operations = Entry::Submenu("Operations", changing);
                 let periodic = command(Command::TogglePeriodic);
+                let symmetric = command(Command::ToggleSymmetric);
                 let select = command(Command::SelectAll);
                 entries.extend([
-                    operations, periodic, rotate, scale, arrange, Divider, select,
+                    operations, periodic, symmetric, rotate, scale, arrange, Divider, select,
                 ]);
             } else {
                 let document = editor.document();

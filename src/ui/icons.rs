@@ -56,6 +56,7 @@ fn of_command(command: Command) -> Option<Icon> {
         Command::Duplicate => Icon::CopyPlus,
         Command::Delete | Command::DeleteCurve => Icon::Trash2,
         Command::TogglePeriodic => Icon::RefreshCw,
+        Command::ToggleSymmetric => Icon::FlipHorizontal2,
         Command::Operation(operation) => of_operation(operation),
         Command::ToggleVisible => Icon::Eye,
         Command::ToggleLocked => Icon::Lock,

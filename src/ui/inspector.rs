@@ -21,9 +21,10 @@ use super::{document_unit, figures};
 use super::{picture_panel, reference_panel};
 use crate::document::{Curve, CurveId, Edit, Group, Reference};
 use crate::editor::{Command, CurvatureDisplay, CurveReport, Editor, told};
-use crate::geometry::MAX_DEGREE;
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::parameters::Quantity;
 use crate::geometry::references::ReferenceForm;
+use crate::geometry::{MAX_DEGREE, significant};
 
 /// The inspector's own state.
 #[derive(Default)]
@@ -107,6 +108,7 @@ impl Inspector {
                 ui.add_enabled_ui(curve.check_editable().is_ok(), |ui| {
                     widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, curve));
                     widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, curve));
+                    widgets::form_row(ui, "Symmetry", |ui| symmetry_ui(ui, editor, (id, curve)));
                 });
             }
             widgets::form_row(ui, "State", |ui| state_ui(ui, editor, own));
@@ -284,6 +286,37 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, curve: &Curve) {
         let response = response.on_hover_text(help);
         if response.clicked() && periodic != wanted {
             told(editor.execute(Command::TogglePeriodic));
+        }
+    }
+}
+
+fn symmetry_ui(ui: &mut Ui, editor: &mut Editor, (id, curve): (CurveId, &Curve)) {
+    ui.spacing_mut().item_spacing.x = STEP;
+    let command = Command::ToggleSymmetric;
+    let mut stays = curve.symmetry.is_some();
+    let response = ui.checkbox(&mut stays, "Stays");
+    if response.on_hover_text(command.tooltip()).clicked() {
+        told(editor.execute(command));
+    }
+    let symmetry = curve.symmetry.into_iter();
+    let mirrors = symmetry.flat_map(|it| [Some(it.mirror()), it.second()]);
+    for [through, normal] in mirrors.flatten().filter_map(|it| it.plane()) {
+        let axis = normal.abs().to_array().iter().position(|it| *it == 1.0);
+        let Some(axis) = axis else {
+            widgets::caption(ui, "slanted axis");
+            continue;
+        };
+        widgets::caption(ui, ["x", "y", "z"][axis]);
+        let name = ["axis at x", "axis at y", "axis at z"][axis];
+        let place = through[axis];
+        let field = NumberField::new(name, place, significant(place, 6));
+        let field = field.width(56.0).quantity(Quantity::Length);
+        let help = "Where the axis is; the curve moves with it";
+        if let Some(wanted) = field.help(help).typed(ui) {
+            let by = (wanted - place) * normal.abs();
+            let vertices = curve.polygon.vertices().iter().enumerate();
+            let moves = vertices.map(|(index, at)| (index, *at + by)).collect();
+            told(editor.apply("Move axis", vec![Edit::MoveVertices { curve: id, moves }]));
         }
     }
 }

@@ -44,6 +44,7 @@ impl ItemsPanel {
         if !curves.is_empty() {
             widgets::form_row(ui, "Degree", |ui| degree_ui(ui, editor, &curves));
             widgets::form_row(ui, "Ends", |ui| ends_ui(ui, editor, &curves));
+            widgets::form_row(ui, "Symmetry", |ui| symmetry_ui(ui, editor, &curves));
         }
         widgets::form_row(ui, "State", |ui| state_ui(ui, editor, items));
         widgets::section(ui, "Properties", true, |ui| {
@@ -109,6 +110,20 @@ fn ends_ui(ui: &mut Ui, editor: &mut Editor, curves: &[Arc<Curve>]) {
         }
     }
     if periodic.is_none() {
+        widgets::caption(ui, MIXED);
+    }
+}
+
+fn symmetry_ui(ui: &mut Ui, editor: &mut Editor, curves: &[Arc<Curve>]) {
+    let stay = common(curves.iter().map(|curve| curve.symmetry.is_some()));
+    ui.spacing_mut().item_spacing.x = STEP;
+    let command = Command::ToggleSymmetric;
+    let mut stays = stay == Some(true);
+    let response = ui.checkbox(&mut stays, "Stay");
+    if response.on_hover_text(command.tooltip()).clicked() {
+        told(editor.execute(command));
+    }
+    if stay.is_none() {
         widgets::caption(ui, MIXED);
     }
 }

@@ -243,6 +243,7 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         command(Command::DeleteCurve),
         Divider,
         command(Command::TogglePeriodic),
+        command(Command::ToggleSymmetric),
         Divider,
     ];
     curve.extend(operations());

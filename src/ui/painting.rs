@@ -64,6 +64,11 @@ const HALO_STRENGTH: f32 = 0.35;
 /// How faint the curve is as it was.
 const GHOST: f32 = 0.35;
 
+/// The dash, the dot and the gap of an axis of symmetry, in points.
+const AXIS_DASH: f32 = 14.0;
+const AXIS_DOT: f32 = 2.0;
+const AXIS_GAP: f32 = 4.0;
+
 /// Paint everything that lies on the grid, from back to front.
 pub fn paint(brush: &Brush<'_>, scene: &Scene) {
     let (active, others): (Vec<_>, Vec<_>) = scene.curves.iter().partition(|curve| curve.active);
@@ -317,11 +322,22 @@ impl Brush<'_> {
         }
     }
 
+    /// Draw an axis as drawings show it: long dashes and dots.
+    fn axis_of_symmetry(&self, ends: [DVec2; 2]) {
+        let stroke = Stroke::new(1.0, self.tokens.faint_text);
+        for line in self.screen.lines(&ends) {
+            let (dashes, gaps) = ([AXIS_DASH, AXIS_DOT], [AXIS_GAP; 2]);
+            let shapes = Shape::dashed_line_with_offset(&line, stroke, &dashes, &gaps, 0.0);
+            self.painter.extend(shapes);
+        }
+    }
+
     fn mark(&self, mark: &Mark, others: &[Pos2]) {
         let tokens = self.tokens;
         let accent = Stroke::new(1.5, tokens.accent);
         match mark {
             Mark::Guide(ends) => self.dashed_chain(ends, Stroke::new(1.0, tokens.float)),
+            Mark::SymmetryAxis(ends) => self.axis_of_symmetry(*ends),
             Mark::Ruler(segment) => self.ruler(*segment),
             Mark::SelectionBox([a, b]) => self.selection_box(*a, *b),
             Mark::NewVertex(at) => {

@@ -3,6 +3,7 @@
 
 mod matched;
 mod repeatable;
+mod symmetric;
 
 use batten::geometry::FloatPolygon;
 use batten::geometry::features::{Feature, Features, SegmentFeatures};
@@ -11,6 +12,7 @@ pub use matched::matched;
 use proptest::prelude::*;
 pub use repeatable::repeatable;
 use serde_json::Value;
+pub use symmetric::check_symmetry;
 
 /// Read one file of tests/data.
 pub fn reference(name: &str) -> Value {

@@ -5,7 +5,7 @@ use std::io::Cursor;
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace, Reference};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::expressions::LengthUnit;
-use batten::geometry::{Continuity, End};
+use batten::geometry::{Continuity, End, Mirror, Symmetry};
 use batten::io::{FileMatch, MatchSource, PICTURE};
 use glam::DVec3;
 use image::{GrayImage, ImageFormat, Luma};
@@ -136,7 +136,16 @@ pub fn cases() -> Vec<Case> {
         locked: true,
         ..with_targets(rational.clone())
     };
-    let planar_again = planar.clone();
+    let [planar_again, planar_too, rational_too] =
+        [planar.clone(), planar.clone(), rational.clone()];
+    let oval = curve(Kind {
+        periodic: true,
+        extra: 4,
+        seed: 4,
+        ..PLANAR
+    });
+    let along = DVec3::new(3.0, 4.0, 0.0);
+    let slanted = Mirror::through(DVec3::X, along).expect("a line");
     let several = vec![
         planar.clone(),
         with_targets(spatial.clone()),
@@ -176,8 +185,40 @@ pub fn cases() -> Vec<Case> {
         Case::new("a picture, active", vec![planar_again])
             .with_picture()
             .with_active(1),
+        Case::new(
+            "symmetric, with locks",
+            vec![symmetric(with_locks(symmetric(with_targets(
+                planar_too.clone(),
+            ))))],
+        ),
+        Case::new("an oval with two axes", vec![symmetric(oval)]),
+        with_one_match(Case::new(
+            "symmetric about a slanted axis, following",
+            vec![
+                symmetric_about(&planar_too, slanted),
+                with_targets(rational_too),
+            ],
+        )),
         Case::new("empty", Vec::new()),
     ]
+}
+
+/// Make a curve stay symmetric about the y axis, where it lies; a closed one about both axes if it can be.
+pub fn symmetric(curve: Curve) -> Curve {
+    symmetric_about(&curve, Mirror::of_coordinate(0))
+}
+
+fn symmetric_about(curve: &Curve, mirror: Mirror) -> Curve {
+    let both = Symmetry::about_both(mirror, &curve.polygon);
+    let symmetry = both.unwrap_or_else(|| Symmetry::about(mirror, &curve.polygon));
+    curve.with_symmetry(symmetry).expect("a symmetric curve")
+}
+
+/// Let only the start of the first curve follow the second.
+fn with_one_match(case: Case) -> Case {
+    let case = case.with_matches();
+    let matches = case.matches.into_iter().take(1).collect();
+    Case { matches, ..case }
 }
 
 /// An embedded picture of a few pixels.

@@ -6,6 +6,7 @@ use batten::geometry::{Continuity, End, FloatPolygon};
 use batten::io::{MatchSource, PROJECT, Reading};
 use glam::DVec3;
 
+use super::common::check_symmetry;
 use super::snapshot::{Bit, Bits, Snapshot};
 use super::watch::Done;
 use super::window::Window;
@@ -40,6 +41,7 @@ pub fn check_document(document: &Document) -> Result<(), String> {
         {
             return Err(format!("“{}” has no vertex {last}", curve.name));
         }
+        check_symmetry(curve)?;
         for (end, target) in curve.targets.list() {
             let directs = |way: DVec3| way.is_finite() && way != DVec3::ZERO;
             if !(target.point.is_finite() && target.direction.is_none_or(directs)) {

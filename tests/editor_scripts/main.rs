@@ -56,6 +56,7 @@ mod selecting_several;
 mod several;
 mod snapshot;
 mod space;
+mod symmetric;
 mod transforming;
 mod trials;
 mod vertices;

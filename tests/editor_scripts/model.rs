@@ -25,7 +25,7 @@ use proptest::sample::select;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
 
 use super::common::Kind;
-use super::documents::{Foreign, picture, with_targets};
+use super::documents::{Foreign, picture, symmetric, with_targets};
 use super::events::{Event, Player};
 use super::laws::{check_read, check_written};
 use super::places::Place;
@@ -258,6 +258,10 @@ impl Drawn {
             with_targets(curve)
         } else {
             curve
+        };
+        let curve = match self.kind.seed % 3 {
+            0 => symmetric(curve),
+            _ => curve,
         };
         Curve {
             visible: self.visible,

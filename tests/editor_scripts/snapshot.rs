@@ -43,6 +43,8 @@ pub struct Bits {
     pub locked_vertices: Vec<usize>,
     /// The targets of start and end.
     pub targets: [Option<TargetBits>; 2],
+    /// Through which points, with which normals, the planes of its symmetry go.
+    pub symmetry: Vec<[[Bit; 3]; 2]>,
 }
 
 /// Every bit of a target: point, direction, normal, curvature and slope.
@@ -98,8 +100,16 @@ impl Bits {
             shape: (degree, periodic, vertices.collect(), weights),
             locked_vertices: curve.locked_vertices.iter().collect(),
             targets: End::BOTH.map(target),
+            symmetry: planes(curve).map(|plane| plane.map(bits)).collect(),
         }
     }
+}
+
+/// The planes of a curve's symmetry: a point and the normal of each.
+fn planes(curve: &Curve) -> impl Iterator<Item = [DVec3; 2]> {
+    let symmetry = curve.symmetry.into_iter();
+    let mirrors = symmetry.flat_map(|it| [Some(it.mirror()), it.second()]);
+    mirrors.flatten().filter_map(|mirror| mirror.plane())
 }
 
 impl Snapshot {

@@ -32,6 +32,8 @@ pub enum Command {
     ToggleVerticesLocked,
     /// Make the selected curves periodic, or open.
     TogglePeriodic,
+    /// Keep the selected curves symmetric, or let their halves change alone.
+    ToggleSymmetric,
     /// Do an operation on the active curve.
     Operation(&'static Operation),
     /// Say in which unit the document's numbers are, or that they have none; they stay.
@@ -172,6 +174,7 @@ impl Command {
             Self::SelectNone,
             Self::ToggleVerticesLocked,
             Self::TogglePeriodic,
+            Self::ToggleSymmetric,
             Self::ToggleVisible,
             Self::ToggleLocked,
             Self::Isolate,
@@ -213,6 +216,7 @@ impl Command {
             Self::SelectNone => "Deselect all",
             Self::ToggleVerticesLocked => "Lock vertices",
             Self::TogglePeriodic => "Periodic",
+            Self::ToggleSymmetric => "Stays symmetric",
             Self::Operation(operation) if operation.parameters.is_empty() => operation.label,
             // What asks for more before anything is done.
             Self::Operation(operation) => return format!("{}…", operation.label),
@@ -267,6 +271,9 @@ impl Command {
             }
             Self::TogglePeriodic => {
                 "Join the end of each selected curve to its start, or open it; the polygons stay"
+            }
+            Self::ToggleSymmetric => {
+                "Let an edit of one half of a symmetric curve change the other half too, or not"
             }
             Self::Operation(operation) => operation.help,
             Self::AddReference(kind) => return format!("{}: {}", kind.label, kind.help),

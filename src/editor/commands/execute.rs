@@ -251,6 +251,7 @@ impl Editor {
             }
             Command::DeleteCurve => Change::removal(document, &items)?,
             Command::TogglePeriodic => Change::periodicity(document, &items)?,
+            Command::ToggleSymmetric => Change::symmetry(document, &items)?,
             Command::ToggleVisible => Change::visibility(document, &items)?,
             Command::ToggleLocked => Change::lock(document, &items)?,
             Command::Isolate => Change::isolation(document, &items, &self.hand.isolated)?,

@@ -4,7 +4,7 @@ use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
 use crate::editor::polygon_edits::periodicity;
 use crate::editor::reply::Refusal;
 use crate::editor::sharper::sharper_radius;
-use crate::geometry::{FloatPolygon, curve_crossing, significant};
+use crate::geometry::{FloatPolygon, Symmetry, curve_crossing, significant};
 use crate::io::counted_items;
 
 /// The most names of items that a message lists.
@@ -27,6 +27,10 @@ pub(super) struct Change {
 /// What a curve that becomes periodic does, and what else there is.
 const PERIODIC: &str =
     "it closes round all vertices of its polygon. Close curve joins its ends instead";
+
+/// How far a curve that is called symmetric may be from its image, as a share of its size: no farther than rounding in
+/// files of other programs.
+const SYMMETRIC: f64 = 1e-6;
 
 /// A curve that is so many times as long as before is told, by lengths of this relative precision.
 const LONGER: f64 = 2.0;
@@ -142,6 +146,47 @@ impl Change {
         let warning = edits.find_map(|edit| warning_of_ring(document, edit));
         Ok(Self { warning, ..change })
     }
+
+    /// Keep the curves symmetric, or let their halves change alone if all are. References stay.
+    pub fn symmetry(document: &Document, items: &[CurveId]) -> Result<Self, Refusal> {
+        let keeps = !are_symmetric(document, items);
+        let changes = items.iter().copied().filter(|id| {
+            let curve = document.curve(*id);
+            curve.is_some_and(|curve| curve.symmetry.is_some() != keeps)
+        });
+        let label = |taken: &[CurveId]| match keeps {
+            true => format!("Keep {} symmetric", noun(document, taken)),
+            false => format!("Let halves of {} change alone", noun(document, taken)),
+        };
+        Self::of(changes, label, |id| {
+            let curve = document.curve(id).ok_or("There is no curve")?;
+            curve.check_editable().map_err(|error| error.to_string())?;
+            if !keeps {
+                return Ok(Edit::SetSymmetry {
+                    curve: id,
+                    symmetry: None,
+                });
+            }
+            let name = quoted(&curve.name);
+            let found = Symmetry::found(&curve.polygon, SYMMETRIC);
+            let found = found.ok_or_else(|| {
+                format!("{name} is not symmetric: run Make symmetric with “Stay symmetric”")
+            })?;
+            let edit = Edit::SetSymmetry {
+                curve: id,
+                symmetry: Some(found),
+            };
+            let made = document.edited([edit.clone()]);
+            made.map(|_| edit).map_err(|error| error.to_string())
+        })
+    }
+}
+
+/// Whether there are curves among items, and all stay symmetric.
+pub(super) fn are_symmetric(document: &Document, items: &[CurveId]) -> bool {
+    let curves = items.iter().filter_map(|id| document.curve(*id));
+    let mut curves = curves.map(|curve| curve.symmetry.is_some()).peekable();
+    curves.peek().is_some() && curves.all(|is_symmetric| is_symmetric)
 }
 
 /// Say that a curve which becomes periodic crosses itself, has a bend much sharper than all before, or is much longer.

@@ -31,7 +31,7 @@ impl Command {
                 };
                 count >= arrangement.least()
             }
-            Command::TogglePeriodic => {
+            Command::TogglePeriodic | Command::ToggleSymmetric => {
                 let mut curves = items.iter().filter_map(|id| document.curve(*id));
                 curves.any(|curve| curve.check_editable().is_ok())
             }
@@ -80,6 +80,7 @@ impl Command {
             Command::View(view) => Some(editor.view.viewport.orientation == view.orientation()),
             Command::SetUnit(unit) => Some(editor.document().unit() == unit),
             Command::TogglePeriodic => Some(items::are_periodic(document, &items)),
+            Command::ToggleSymmetric => Some(items::are_symmetric(document, &items)),
             Command::ToggleVisible => {
                 Some(!items.is_empty() && items::are_visible(document, &items))
             }

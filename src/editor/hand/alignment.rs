@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 
 use super::snapping::{Carried, Snap};
 use crate::document::{CurveId, Document};
+use crate::editor::view::symmetry_axis::symmetry_axes;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::End;
 
@@ -53,8 +54,9 @@ impl Line {
     }
 }
 
-/// Find what a dragged place of the view plane lines up with: the vertices of the `active` curve, the ends of all visible
-/// curves with their tangents and normals, targets and the origin, as far as they are on the canvas and not `carried`.
+/// Find what a dragged place of the view plane lines up with: the vertices of the `active` curve and its axis of symmetry,
+/// the ends of all visible curves with their tangents and normals, targets and the origin, as far as they are on the canvas
+/// and not `carried`.
 ///
 /// `None` if no line is near, or the view is turned against the model, where no axis is level.
 pub fn line_up(
@@ -142,6 +144,29 @@ fn lines_near(
         }
     }
     add(DVec3::ZERO, &LEVEL, &|| "origin".to_owned());
+    let active = active.filter(|id| carried.item != Some(*id));
+    let symmetric = active.and_then(|id| document.curve(id));
+    let axes = symmetric.into_iter().flat_map(|curve| {
+        let axes = symmetry_axes(curve, viewport);
+        axes.map(|axis| (axis, format!("On the axis of {}", curve.name)))
+    });
+    for ([through, along], name) in axes {
+        let direction = match along.abs() {
+            DVec2::X => DVec2::X,
+            DVec2::Y => DVec2::Y,
+            _ => along,
+        };
+        let axis = Line {
+            from: through,
+            direction,
+            name,
+        };
+        // Drawn from where it is near.
+        let from = axis.foot(place);
+        if from.distance(place) <= reach {
+            lines.push(Line { from, ..axis });
+        }
+    }
     lines
 }
 

@@ -105,6 +105,14 @@ pub enum PointKind {
 }
 
 impl DraggedPoint {
+    /// The place on the curve that it belongs to.
+    fn parameter(self, polygon: &FloatPolygon) -> f64 {
+        match self.kind {
+            PointKind::OnCurve(u) => u,
+            PointKind::Clamped(index) => polygon.clamped_greville(index),
+        }
+    }
+
     fn by(self, by: DVec3) -> Dragged {
         match self.kind {
             PointKind::Clamped(index) => Dragged::Clamped(index, by),
@@ -214,16 +222,19 @@ impl Following {
             let Some(follow) = self.follow else {
                 return Ok(Edit::MoveVertices { curve, moves });
             };
-            edit(before, curve, |polygon, locked| match follow {
-                Follow::Softly => Ok(follow_softly(polygon, &moves, self.span(), locked)?),
+            edit(before, curve, |curve, locked| match follow {
+                Follow::Softly => {
+                    let moves = curve.with_images(&moves);
+                    Ok(follow_softly(&curve.polygon, &moves, self.span(), locked)?)
+                }
                 Follow::InHarmony => {
-                    let dragged = Dragged::Vertices(moves.clone());
+                    let dragged = Dragged::Vertices(curve.with_images(&moves));
                     let reach = Reach {
                         span: self.span(),
                         stiffness: self.stiffness,
                         locked,
                     };
-                    least_change(polygon, &dragged, &reach)
+                    least_change(&curve.polygon, &dragged, &reach)
                 }
             })
         });
@@ -242,14 +253,21 @@ impl Following {
         point: DraggedPoint,
         by: DVec3,
     ) -> Result<Edit, FollowError> {
-        edit(before, curve, |polygon, locked| match point.kind {
+        let edit = edit(before, curve, |curve, locked| match point.kind {
             PointKind::Clamped(index) if self.closed_stay => {
+                let polygon = &curve.polygon;
                 let clamped = ClampedPolygon::from_float(polygon);
                 let from = clamped.vertices().get(index).copied();
                 Ok(polygon.with_clamped_vertex(index, from.unwrap_or_default() + by)?)
             }
-            _ => least_change(polygon, &point.by(by), &self.reach_of(point, locked)),
-        })
+            _ => least_change(&curve.polygon, &point.by(by), &self.reach_of(point, locked)),
+        })?;
+        let Some((own, Edit::SetPolygon { polygon, .. })) = before.curve(curve).zip(Some(&edit))
+        else {
+            return Ok(edit);
+        };
+        let polygon = own.led_from(polygon.clone(), point.parameter(polygon))?;
+        Ok(Edit::SetPolygon { curve, polygon })
     }
 
     /// Measure how many times as far as a dragged point its vertices move, at most.
@@ -309,11 +327,11 @@ impl Following {
 fn edit(
     before: &Document,
     id: CurveId,
-    reshape: impl FnOnce(&FloatPolygon, &[usize]) -> Result<FloatPolygon, LeastChangeError>,
+    reshape: impl FnOnce(&Curve, &[usize]) -> Result<FloatPolygon, LeastChangeError>,
 ) -> Result<Edit, FollowError> {
     let curve = before.curve(id).ok_or(EditError::NoSuchCurve)?;
     let locked: Vec<usize> = curve.locked_vertices.iter().collect();
-    let polygon = reshape(&curve.polygon, &locked).map_err(|error| FollowError::Least {
+    let polygon = reshape(curve, &locked).map_err(|error| FollowError::Least {
         name: curve.name.clone(),
         error,
     })?;

@@ -163,13 +163,16 @@ fn is_similar(before: &FloatPolygon, now: &FloatPolygon) -> bool {
     })
 }
 
-/// Whether a vertex is elsewhere that is not among those of a selection.
+/// Whether a vertex is elsewhere that is neither among those of a selection nor an image of one.
 pub(super) fn moves_others(before: &Document, after: &Document, selection: &Selection) -> bool {
     let mut curves = after.curves();
     curves.any(|(id, now)| {
         let then = before.curve(id).filter(|then| !Arc::ptr_eq(then, now));
         let moved = then.map(|then| now.polygon.moved_vertices(&then.polygon));
         let mut moved = moved.into_iter().flatten();
-        moved.any(|index| !selection.contains((id, index)))
+        moved.any(|index| {
+            let mut own = now.dependents(index).into_iter();
+            !own.any(|index| selection.contains((id, index)))
+        })
     })
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use crate::document::Curve;
 use crate::editor::jobs::guides::{FeatureOf, VertexOf};
 use crate::editor::view::feature_report::FeatureKind;
 use crate::editor::view::layers::Layer;
@@ -62,7 +63,7 @@ impl View {
 }
 
 /// The vertex whose safe region is to be shown: the only one that is selected, of the active curve, where it
-/// can be moved.
+/// can be moved and its images do not move the same segments.
 fn guided_vertex(shown: Shown<'_>) -> Option<VertexOf> {
     if !shown.layers.shows(Layer::SafeRegion) {
         return None;
@@ -74,7 +75,7 @@ fn guided_vertex(shown: Shown<'_>) -> Option<VertexOf> {
     curve.check_editable().ok()?;
     curve.check_vertices_unlocked([vertex]).ok()?;
     let curve = curve.clone();
-    Some(VertexOf { curve, vertex })
+    (!overlaps_image(&curve, vertex)).then_some(VertexOf { curve, vertex })
 }
 
 impl Sight<'_> {
@@ -99,9 +100,17 @@ impl Sight<'_> {
         let Some(shown) = active.filter(|curve| curve.visible) else {
             return;
         };
+        let own = self.shown.only_vertex();
+        let own = own.filter(|(id, _)| Some(*id) == self.active());
+        let own = own.filter(|_| self.shown.layers.shows(Layer::SafeRegion));
+        if let Some((_, vertex)) = own.filter(|(_, vertex)| overlaps_image(shown, *vertex)) {
+            let at = shown.polygon.vertex(vertex).truncate();
+            let text = "No safe region: its image moves the same segments".to_owned();
+            scene.labels.push(self.guide_label(at, DVec2::Y, text));
+        }
         let regions = &self.view.guides.regions;
         if let Some(VertexOf { curve, vertex }) = regions.request()
-            && differs_at_most_at(&curve.polygon, &shown.polygon, Some(*vertex))
+            && differs_at_most_at(curve, &shown.polygon, Some(*vertex))
         {
             let failure = match regions.result() {
                 Some(Err(reason)) => Some(format!("No safe region: {reason}")),
@@ -119,7 +128,7 @@ impl Sight<'_> {
         }
         let losses = &self.view.guides.losses;
         if let Some(feature) = losses.request()
-            && differs_at_most_at(&feature.curve.polygon, &shown.polygon, None)
+            && differs_at_most_at(&feature.curve, &shown.polygon, None)
         {
             let found = match losses.result() {
                 Some(Ok(found)) => Ok(found.as_slice()),
@@ -262,15 +271,31 @@ fn runs(rays: &[RayBorder]) -> Vec<Run> {
     runs.collect()
 }
 
-/// Whether two polygons are the same but for one vertex: a given one, or any.
-fn differs_at_most_at(before: &FloatPolygon, now: &FloatPolygon, vertex: Option<usize>) -> bool {
+/// Whether a polygon is that of a curve but for one vertex, a given one or any, and its images.
+fn differs_at_most_at(curve: &Curve, now: &FloatPolygon, vertex: Option<usize>) -> bool {
+    let before = &curve.polygon;
     if std::ptr::eq(before, now) {
         return true;
     }
     let pairs = before.vertices().iter().zip(now.vertices());
-    let mut moved = pairs.enumerate().filter(|(_, (before, now))| before != now);
-    let first = moved.next().map(|(index, _)| index);
-    let is_allowed = first.is_none() || vertex.is_none() || first == vertex;
+    let moved = pairs.enumerate().filter(|(_, (before, now))| before != now);
+    let mut moved = moved.map(|(index, _)| index).peekable();
+    let own = vertex.or(moved.peek().copied());
+    let own = own.map_or_else(Vec::new, |vertex| curve.dependents(vertex));
     let alike = before.has_numbers_of(now) && before.weights() == now.weights();
-    alike && is_allowed && moved.next().is_none()
+    alike && moved.all(|index| own.contains(&index))
+}
+
+/// Whether a vertex moves segments of the curve that an image of it moves too.
+fn overlaps_image(curve: &Curve, vertex: usize) -> bool {
+    let polygon = &curve.polygon;
+    let (count, degree) = (polygon.vertices().len(), polygon.degree());
+    curve.dependents(vertex).iter().skip(1).any(|image| {
+        let apart = image.abs_diff(vertex);
+        let apart = match polygon.is_periodic() {
+            true => apart.min(count - apart),
+            false => apart,
+        };
+        apart <= degree
+    })
 }

@@ -37,6 +37,7 @@ pub(in crate::editor) mod scene;
 pub(in crate::editor) mod shown;
 pub(in crate::editor) mod sight;
 mod sleeve;
+pub(in crate::editor) mod symmetry_axis;
 #[allow(clippy::module_inception)]
 mod view;
 pub(in crate::editor) mod viewport;

@@ -163,6 +163,8 @@ pub struct VertexMark {
 pub enum Mark {
     /// A dashed line, such as the leg that a click would add.
     Guide([DVec2; 2]),
+    /// The axis of a symmetric curve.
+    SymmetryAxis([DVec2; 2]),
     /// A line that measures.
     Ruler([DVec2; 2]),
     /// The figures of a measurement, beside a place.

@@ -91,7 +91,10 @@ fn dragged(target: EndTarget, subject: &Subject, context: &Context) -> Vec<Effec
     if context.following.follows_targets() {
         let (curve, end) = (subject.id, subject.end);
         match context.following.to_target(subject.curve, end, &target) {
-            Ok(polygon) => edits.push(Edit::SetPolygon { curve, polygon }),
+            Ok(polygon) => match subject.curve.led_by(polygon, end) {
+                Ok(polygon) => edits.push(Edit::SetPolygon { curve, polygon }),
+                Err(error) => return vec![Effect::Say(error.to_string())],
+            },
             Err(error) => {
                 let name = quoted(&subject.curve.name);
                 return vec![Effect::Say(format!("{name} cannot follow: {error}"))];
@@ -168,7 +171,11 @@ fn shaped<E: std::fmt::Display>(
     subject: &Subject,
     polygon: Result<FloatPolygon, E>,
 ) -> Vec<Effect> {
-    let curve = subject.id;
+    let (curve, end) = (subject.id, subject.end);
+    let polygon = polygon.map_err(|error| error.to_string()).and_then(|it| {
+        let led = subject.curve.led_by(it, end);
+        led.map_err(|error| error.to_string())
+    });
     let edits = polygon.map(|polygon| vec![Edit::SetPolygon { curve, polygon }]);
     vec![Effect::preview(edits)]
 }

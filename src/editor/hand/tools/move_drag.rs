@@ -59,7 +59,7 @@ impl MoveDrag {
         self.by
     }
 
-    /// Why a point of a curve is not where it is dragged, if a match does that.
+    /// Why a point of a curve is not where it is dragged, if a match or the curve's symmetry does that.
     pub fn lag(
         &self,
         curve: CurveId,
@@ -68,13 +68,18 @@ impl MoveDrag {
         context: &Context,
     ) -> Option<&'static str> {
         let is_matched = context.document.matches().any(|it| it.curve == curve);
+        let own = context.document.curve(curve);
+        let is_symmetric = own.is_some_and(|it| it.symmetry.is_some());
         let wanted = context
             .viewport
             .flatten(from + context.movement(self.by, planar));
         let off = wanted.distance(context.viewport.flatten(to));
-        let lags =
-            is_matched && context.held_back.is_none() && off > LAG * context.viewport.pixel();
-        lags.then_some("The match holds it back")
+        let lags = context.held_back.is_none() && off > LAG * context.viewport.pixel();
+        match (lags, is_matched, is_symmetric) {
+            (true, true, _) => Some("The match holds it back"),
+            (true, false, true) => Some("The symmetry holds it back"),
+            _ => None,
+        }
     }
 
     /// Tell of a point that was dragged from somewhere to somewhere, with a remark and what the drag adds, or why it

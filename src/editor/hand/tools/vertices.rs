@@ -11,7 +11,7 @@ use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
 use crate::editor::hand::snapping::Carried;
 use crate::editor::hand::typed_point::{EntryError, TypedPoint};
-use crate::editor::polygon_edits::{continuation, inserted, insertion, replacement};
+use crate::editor::polygon_edits::{continuation, insertion, number_of_inserted, replacement};
 use crate::editor::same_shape::{LastSameShape, SameShape};
 use crate::editor::view::hit::LegHit;
 use crate::editor::view::scene::Mark;
@@ -112,14 +112,7 @@ impl Adding {
     /// how far the curve moves that goes on from an end.
     fn changes(&self, vertex: DVec3, unit: Option<LengthUnit>) -> Option<String> {
         let before = &self.curve.polygon;
-        let edit = match self.end {
-            Some(end) => continuation(self.id, &self.curve, end, vertex),
-            None => insertion(self.id, &self.curve, self.index, vertex),
-        };
-        let Ok(Edit::Renumber { polygon, .. }) = edit else {
-            return None;
-        };
-        let change = feature_change(before, &polygon);
+        let change = feature_change(before, &self.polygon(vertex)?);
         let moved = self.moved(vertex, unit);
         let told: Vec<String> = moved.into_iter().chain(change).collect();
         (!told.is_empty()).then(|| told.join("; "))
@@ -205,29 +198,41 @@ impl Adding {
     }
 
     fn preview(&self, vertex: DVec3) -> Effect {
+        Effect::preview(self.edit(vertex).map(|edit| vec![edit]))
+    }
+
+    fn edit(&self, vertex: DVec3) -> Result<Edit, PolygonError> {
         let (id, curve) = (self.id, &self.curve);
-        let edit = match (&self.same, self.end) {
+        match (&self.same, self.end) {
             (None, None) => insertion(id, curve, self.index, vertex),
             (None, Some(end)) => continuation(id, curve, end, vertex),
-            (Some(_), _) => {
-                let polygon = self.polygon(vertex);
-                polygon.map(|polygon| replacement(id, curve, polygon))
+            (Some(same), _) => {
+                let mut polygon = same.polygon.clone();
+                let mut moves = vec![(self.index, vertex)];
+                if let Some(symmetry) = curve.symmetry {
+                    let symmetry = symmetry.renumbered(&polygon);
+                    polygon = symmetry.completed(&polygon, |_| true)?;
+                    moves = symmetry.with_images(&moves, polygon.vertices().len());
+                }
+                polygon.move_vertices(moves)?;
+                Ok(replacement(id, curve, polygon))
             }
-        };
-        Effect::preview(edit.map(|edit| vec![edit]))
+        }
+    }
+
+    /// The number of the new vertex.
+    fn number(&self) -> usize {
+        match (&self.same, self.end) {
+            (None, None) => number_of_inserted(&self.curve, self.index),
+            (Some(_), _) | (_, Some(_)) => self.index,
+        }
     }
 
     /// The polygon with the vertex.
-    fn polygon(&self, vertex: DVec3) -> Result<FloatPolygon, PolygonError> {
-        let polygon = &self.curve.polygon;
-        match (&self.same, self.end) {
-            (None, None) => inserted(polygon, self.index, vertex),
-            (None, Some(end)) => polygon.continued(end, vertex),
-            (Some(same), _) => {
-                let mut polygon = same.polygon.clone();
-                polygon.move_vertices(vec![(self.index, vertex)])?;
-                Ok(polygon)
-            }
+    fn polygon(&self, vertex: DVec3) -> Option<FloatPolygon> {
+        match self.edit(vertex) {
+            Ok(Edit::Renumber { polygon, .. }) => Some(polygon),
+            _ => None,
         }
     }
 }
@@ -346,7 +351,7 @@ impl NewVertexTool {
             Effect::Activate(adding.id),
             Effect::Begin(label.to_owned()),
             adding.preview(vertex),
-            Effect::Select(vec![(adding.id, adding.index)]),
+            Effect::Select(vec![(adding.id, adding.number())]),
         ]
     }
 
@@ -495,6 +500,6 @@ impl Tool for NewVertexTool {
 
     fn proposal(&self, context: &Context) -> Option<FloatPolygon> {
         let (adding, vertex) = self.planned(context)?;
-        adding.polygon(vertex).ok()
+        adding.polygon(vertex)
     }
 }
