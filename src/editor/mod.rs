@@ -19,7 +19,7 @@ use std::time::Duration;
 
 pub use commands::drawing::end_drawing;
 pub use commands::{
-    Command, CopyForm, PICTURE_PLANES, PictureChange, ReferenceChange, Shortcut,
+    Command, CopyForm, PICTURE_PLANES, Pasted, PictureChange, ReferenceChange, Shortcut,
     measured_direction, picture_plane,
 };
 pub use dispatch::MenuOf;

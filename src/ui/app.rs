@@ -232,9 +232,9 @@ impl App {
             match command {
                 KeyCommand::Action(action) if typing => self.actions.push(action),
                 KeyCommand::Action(action) => self.perform(context, action),
-                KeyCommand::Paste(text) => told(self.editor.paste_text(&text)),
+                KeyCommand::Paste(text) => told(self.editor.paste(&text)),
                 KeyCommand::PastePicture(image) => {
-                    told(self.editor.paste_picture(&decoded(&image)));
+                    told(self.editor.paste(&decoded(&image)));
                 }
             }
         }

@@ -294,7 +294,7 @@ fn symmetry_ui(ui: &mut Ui, editor: &mut Editor, (id, curve): (CurveId, &Curve))
     ui.spacing_mut().item_spacing.x = STEP;
     let command = Command::ToggleSymmetric;
     let mut stays = curve.symmetry.is_some();
-    let response = ui.checkbox(&mut stays, "Stays");
+    let response = ui.checkbox(&mut stays, "Keep");
     if response.on_hover_text(command.tooltip()).clicked() {
         told(editor.execute(command));
     }

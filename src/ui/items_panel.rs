@@ -119,7 +119,7 @@ fn symmetry_ui(ui: &mut Ui, editor: &mut Editor, curves: &[Arc<Curve>]) {
     ui.spacing_mut().item_spacing.x = STEP;
     let command = Command::ToggleSymmetric;
     let mut stays = stay == Some(true);
-    let response = ui.checkbox(&mut stays, "Stay");
+    let response = ui.checkbox(&mut stays, "Keep");
     if response.on_hover_text(command.tooltip()).clicked() {
         told(editor.execute(command));
     }

@@ -14,7 +14,7 @@ fn copy_and_paste_add_a_curve_aside_as_one_step() {
         .editor
         .copy(batten::editor::CopyForm::Own)
         .expect("the arc's text");
-    let pasted = script.editor.paste_text(&text).expect("a copy");
+    let pasted = script.editor.paste(&text).expect("a copy");
     assert!(pasted.offers_undo, "{pasted:?}");
     assert_eq!(script.editor.document().len(), 2);
     let names: Vec<String> = script
@@ -26,7 +26,7 @@ fn copy_and_paste_add_a_curve_aside_as_one_step() {
     assert_ne!(names[0], names[1]);
     script.command(Command::Undo);
     assert_eq!(script.editor.document().len(), 1);
-    let refused = script.editor.paste_text("no curve at all");
+    let refused = script.editor.paste("no curve at all");
     assert!(refused.is_err(), "{refused:?}");
     assert_eq!(script.editor.document().len(), 1);
     assert!(
@@ -160,7 +160,7 @@ fn copies_for_other_programs_come_back_as_the_same_curve() {
         "{message}"
     );
     let mut other = Editor::with_document(Document::default());
-    other.paste_text(&path).expect("the path");
+    other.paste(&path).expect("the path");
     let document = other.document();
     let curve = document.curves().next().map(|(_, it)| it.polygon.clone());
     let reference = document.references().next().map(|(_, it)| it.curve.clone());
@@ -175,7 +175,7 @@ fn copies_for_other_programs_come_back_as_the_same_curve() {
         assert!(off <= 1e-4 * size, "{piece}: {off}");
     }
     let mut other = Editor::with_document(Document::default());
-    other.paste_text(&table).expect("the table");
+    other.paste(&table).expect("the table");
     let (_, copy) = other.document().curves().next().expect("a curve");
     let moved = copy.polygon.vertex(0) - arc.polygon.vertex(0);
     for (index, vertex) in arc.polygon.vertices().iter().enumerate() {

@@ -129,8 +129,8 @@ fn unknown_keys_do_not_go_with_copies() {
         .copy(batten::editor::CopyForm::Own)
         .expect("a text");
     assert!(!copied.contains("weigths"), "{copied}");
-    script.editor.paste_text(&copied).expect("a curve");
-    script.editor.paste_text(PROJECT).expect("a curve");
+    script.editor.paste(&copied).expect("a curve");
+    script.editor.paste(PROJECT).expect("a curve");
     assert_eq!(
         script.message(),
         "1 curve pasted\n\
@@ -152,7 +152,7 @@ fn a_pasted_table_tells_how_it_was_read() {
     let mut script = Script::example("arc");
     script
         .editor
-        .paste_text("# degree=1\t\nx\ty\n0\t0,5\n1\t1,25\n")
+        .paste("# degree=1\t\nx\ty\n0\t0,5\n1\t1,25\n")
         .expect("a curve");
     assert_eq!(
         script.message(),
@@ -356,7 +356,7 @@ fn the_clipboard_keeps_the_size_of_curves() {
     copied.activate(curve);
     let text = copied.copy(batten::editor::CopyForm::Own).expect("a text");
     let mut editor = Editor::with_document(in_unit(MM));
-    editor.paste_text(&text).expect("a curve");
+    editor.paste(&text).expect("a curve");
     let (pasted, unit) = widths(&editor);
     assert!(unit == MM && (pasted[1] - 50.8).abs() < 1e-12, "{pasted:?}");
 }

@@ -59,7 +59,7 @@ fn copies_and_parts_stay_in_the_group() {
         .editor
         .copy(batten::editor::CopyForm::Own)
         .expect("the text of a curve");
-    script.editor.paste_text(&text).expect("a copy");
+    script.editor.paste(&text).expect("a copy");
     assert_eq!(groups(&script), ["Deck"; 3]);
     let at = [("at", Value::Real(1.0))];
     script.operate("split", &at).expect("two parts");

@@ -256,7 +256,7 @@ fn copies_are_free() {
         .editor
         .copy(batten::editor::CopyForm::Own)
         .expect("a curve");
-    told(script.editor.paste_text(&text));
+    told(script.editor.paste(&text));
     assert!(locks(&script).is_empty());
     let first = script.editor.document().ids().next().expect("the first");
     assert_eq!(locks_of(&script, first), [2]);
@@ -265,7 +265,7 @@ fn copies_are_free() {
         .editor
         .copy(batten::editor::CopyForm::Own)
         .expect("a curve");
-    told(script.editor.paste_text(&text));
+    told(script.editor.paste(&text));
     assert!(locks(&script).is_empty());
 }
 

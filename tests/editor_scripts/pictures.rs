@@ -449,7 +449,7 @@ fn a_pasted_picture_is_embedded_and_lies_beside_the_others() {
         size: [60, 50],
         rgba: rgba.clone(),
     };
-    let reply = script.editor.paste_picture(&copied).expect("a picture");
+    let reply = script.editor.paste(&copied).expect("a picture");
     assert!(reply.text.starts_with("1 picture added"), "{}", reply.text);
     let last = script.editor.document().references().last();
     let (id, reference) = last.expect("a picture");
@@ -469,7 +469,7 @@ fn a_pasted_picture_is_embedded_and_lies_beside_the_others() {
         size: [0, 0],
         rgba: Vec::new(),
     };
-    assert!(script.editor.paste_picture(&empty).is_err());
+    assert!(script.editor.paste(&empty).is_err());
 }
 
 /// `BATTEN_PICTURES=DIR cargo test --test editor_scripts real_pictures -- --ignored --nocapture`

@@ -408,7 +408,7 @@ fn a_list_of_points_is_measured_point_by_point() {
     let rows = points.map(|point| format!("{},{}", point.x, point.y));
     script
         .editor
-        .paste_text(&rows.join("\n"))
+        .paste(&rows.join("\n"))
         .expect("a list of points");
     script.command(Command::Compare(Some(arc)));
     script.editor.refresh();
@@ -552,7 +552,7 @@ fn it_is_copied_cut_pasted_duplicated_and_deleted() {
         .editor
         .copy(batten::editor::CopyForm::Own)
         .expect("a copy");
-    script.editor.paste_text(&text).expect("a reference");
+    script.editor.paste(&text).expect("a reference");
     script.check();
     let copy = script.curve();
     assert_eq!(script.message(), "1 reference pasted");
@@ -577,7 +577,7 @@ fn it_is_copied_cut_pasted_duplicated_and_deleted() {
 #[test]
 fn a_pasted_table_of_points_is_a_list_that_is_drawn_and_has_no_comb() {
     let mut script = Script::example("arc");
-    let pasted = script.editor.paste_text("x\ty\n0\t0\n1,5\t2\n4\t1\n");
+    let pasted = script.editor.paste("x\ty\n0\t0\n1,5\t2\n4\t1\n");
     pasted.expect("points");
     script.check();
     assert_eq!(

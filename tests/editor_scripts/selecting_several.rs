@@ -289,7 +289,7 @@ fn copies_hold_all_that_is_selected() {
     script.editor.hand_mut().select_items([arc, other, circle]);
     let text = script.editor.copy(CopyForm::Own).expect("a text");
     assert!(script.message().contains("“other”"), "{}", script.message());
-    script.editor.paste_text(&text).expect("copies");
+    script.editor.paste(&text).expect("copies");
     let document = script.editor.document();
     assert_eq!(
         (document.curves().len(), document.references().len()),

@@ -82,7 +82,7 @@ fn cutting_removes_what_it_copies() {
     let left = polygon_of(&script, other);
     assert_eq!(left.vertices(), &before.vertices()[4..]);
     assert_eq!(polygon_of(&script, arc), untouched);
-    script.editor.paste_text(&text).expect("a curve");
+    script.editor.paste(&text).expect("a curve");
     assert_eq!(script.polygon().vertices().len(), 4);
 }
 
@@ -222,7 +222,7 @@ fn a_single_vertex_is_copied_as_its_coordinates() {
         script.editor.select_vertex(other, vertex, true);
     }
     let text = copied(&mut script);
-    script.editor.paste_text(&text).expect("a curve");
+    script.editor.paste(&text).expect("a curve");
     assert_eq!(script.polygon().vertices().len(), 5);
 }
 
@@ -232,7 +232,7 @@ fn drawings_of_other_programs_are_pasted() {
     let cubic = [[10.0, -20.0], [30.0, -40.0], [50.0, -60.0], [70.0, -20.0]];
     let check = |script: &mut Script, text: &str| {
         let before = script.editor.document().curves().len();
-        script.editor.paste_text(text).expect("a curve");
+        script.editor.paste(text).expect("a curve");
         let now = script.editor.document().curves().len();
         assert_eq!(now, before + 1, "{text}");
         let clamped = ClampedPolygon::from_float(&script.polygon());
@@ -276,7 +276,7 @@ fn drawings_of_other_programs_are_pasted() {
         "  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n",
     ] {
         let before = script.steps();
-        let reply = script.editor.paste_text(text);
+        let reply = script.editor.paste(text);
         assert!(
             reply.is_err() || reply.is_ok_and(|note| note.text.contains("no curves")),
             "{text}"
@@ -296,7 +296,7 @@ fn pasting_in_the_middle_of_a_drag_calls_the_drag_off() {
     let (arc, at) = (script.curve(), script.at_vertex(3));
     script.press(at);
     script.move_to(at + 40.0);
-    script.editor.paste_text(&text).expect("a curve");
+    script.editor.paste(&text).expect("a curve");
     script.move_to(at + 80.0);
     script.release(at + 80.0);
     let polygon = |script: &Script| {

@@ -460,12 +460,12 @@ impl Window {
                 let edits = self.weighted(*curve, *vertex, *weight);
                 told(self.editor.apply("Set weight", edits));
             }
-            Panel::Paste(text) => told(self.editor.paste_text(TEXTS[text % TEXTS.len()])),
+            Panel::Paste(text) => told(self.editor.paste(TEXTS[text % TEXTS.len()])),
             Panel::Cut => told(self.editor.cut()),
             Panel::Copy => told(self.editor.copy(batten::editor::CopyForm::Own)),
             Panel::CopyAndPaste => {
                 if let Ok(text) = self.editor.copy(batten::editor::CopyForm::Own) {
-                    told(self.editor.paste_text(&text));
+                    told(self.editor.paste(&text));
                 }
             }
             Panel::SetValue(parameter, number) => {

@@ -19,57 +19,38 @@ use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::Placement;
 use crate::geometry::{FloatPolygon, PolygonKind, counted};
 use crate::io::{
-    Decoded, Export, ExportChoice, PICTURE, PROJECT, Problem, ReadError, Reading, Scope, TAB_TABLE,
-    TABLE, WriteError, formats, svg_path,
+    Decoded, Export, ExportChoice, PICTURE, PROJECT, ReadError, Reading, Scope, TAB_TABLE, TABLE,
+    WriteError, formats, svg_path,
 };
 
 /// The distance of copies from their originals, in screen points, right and down.
 const OFFSET: f64 = 24.0;
 
 impl Editor {
-    /// Add the curves and references of a text as one step: a project or a CSV table, as files hold
-    /// them. The message shows the reply.
+    /// Add what the clipboard holds as one step: curves and references of a text, which is a project, a table, a drawing
+    /// or the data of an SVG path, or a picture, which is embedded. The message shows the reply.
     ///
     /// # Errors
-    /// [`Refusal`] if the text cannot be read; nothing is changed then.
-    pub fn paste_text(&mut self, text: &str) -> Reply {
-        let reply = read(text).and_then(|(read, purpose)| {
+    /// [`Refusal`] if it cannot be read; nothing is changed then.
+    pub fn paste<'a>(&mut self, pasted: impl Into<Pasted<'a>>) -> Reply {
+        let reply = pasted.into().read().and_then(|(read, purpose)| {
             if read.is_empty() {
                 return Ok(Note::told("There are no curves on the clipboard"));
             }
-            self.merge_pasted(read, purpose)
+            let remarks = read.remarks.to_string();
+            let read = ReadDocument {
+                document: read.into_document()?,
+                name: String::new(),
+                remarks,
+            };
+            let incoming = Incoming {
+                purpose,
+                documents: vec![read],
+                files: None,
+            };
+            self.merge(incoming, None)
         });
         self.tell(reply)
-    }
-
-    /// Add a picture from the clipboard, embedded in the project, as one step. The message shows the reply.
-    ///
-    /// # Errors
-    /// [`Refusal`] if it has no pixels, or too many; nothing is changed then.
-    pub fn paste_picture(&mut self, picture: &Decoded) -> Reply {
-        let refused = |error: Problem| Refusal(error.to_string());
-        let bytes = picture.to_png().map_err(refused);
-        let read = bytes.and_then(|bytes| {
-            let read = PICTURE.read(&bytes);
-            read.map_err(|error| Refusal(error.to_string()))
-        });
-        let reply = read.and_then(|read| self.merge_pasted(read, Purpose::Import));
-        self.tell(reply)
-    }
-
-    fn merge_pasted(&mut self, read: Reading, purpose: Purpose) -> Reply {
-        let remarks = read.remarks.to_string();
-        let read = ReadDocument {
-            document: read.into_document()?,
-            name: String::new(),
-            remarks,
-        };
-        let incoming = Incoming {
-            purpose,
-            documents: vec![read],
-            files: None,
-        };
-        self.merge(incoming, None)
     }
 
     /// Make the text of what is selected, or of the active curve or reference if nothing is. The message shows the
@@ -211,6 +192,48 @@ impl CopyForm {
             text,
             Note::told(with_lines(format!("{names} copied as {form}"), &losses)),
         ))
+    }
+}
+
+/// The content of the clipboard.
+#[derive(Clone, Copy, Debug)]
+pub enum Pasted<'a> {
+    /// A text.
+    Text(&'a str),
+    /// The pixels of a picture.
+    Picture(&'a Decoded),
+}
+
+impl<'a> From<&'a str> for Pasted<'a> {
+    fn from(text: &'a str) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl<'a> From<&'a String> for Pasted<'a> {
+    fn from(text: &'a String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl<'a> From<&'a Decoded> for Pasted<'a> {
+    fn from(picture: &'a Decoded) -> Self {
+        Self::Picture(picture)
+    }
+}
+
+impl Pasted<'_> {
+    fn read(self) -> Result<(Reading, Purpose), Refusal> {
+        match self {
+            Self::Text(text) => read(text),
+            Self::Picture(picture) => {
+                let bytes = picture.to_png();
+                let bytes = bytes.map_err(|error| Refusal(error.to_string()))?;
+                let read = PICTURE.read(&bytes);
+                let read = read.map_err(|error| Refusal(error.to_string()))?;
+                Ok((read, Purpose::Import))
+            }
+        }
     }
 }
 

@@ -18,7 +18,7 @@ mod recovering;
 mod references;
 mod state;
 
-pub use clipboard::CopyForm;
+pub use clipboard::{CopyForm, Pasted};
 pub use command::{Command, Shortcut};
 pub use pictures::{PICTURE_PLANES, PictureChange, measured_direction, picture_plane};
 pub use references::ReferenceChange;
