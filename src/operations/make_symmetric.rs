@@ -1,6 +1,8 @@
 //! A curve that becomes its own mirror image.
 
-use glam::DVec3;
+use std::time::Duration;
+
+use glam::{DVec2, DVec3};
 
 use super::bridge::{self, found};
 use super::cutting::without_target;
@@ -21,6 +23,7 @@ use crate::geometry::approximation::merging::{MergeError, check_joint, joint_of,
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
+use crate::geometry::fitting::{PlaneFit, SymmetryAxis, fit_plane};
 use crate::geometry::{
     BezierPolygon, End, FloatPolygon, Mirror, Progress, Symmetry, arc_length_between, counted,
     significant,
@@ -69,6 +72,15 @@ const OVERSHOOT: f64 = 0.1;
 
 /// The share of a half that a bridge replaces where nothing else is found: less leaves no room to turn a corner off.
 const RECEDED: f64 = 0.04;
+
+/// Beyond the tolerance, a fit within so many times of it shows what a larger one would give.
+const LARGER: f64 = 4.0;
+
+/// The time for a fit of both halves.
+const FITTING: Duration = Duration::from_secs(5);
+
+/// The points of a half to which one curve is fitted with its image.
+const FITTED: usize = 200;
 
 /// The relative precision of lengths that are compared with that.
 const PRECISION: f64 = 1e-3;
@@ -295,12 +307,21 @@ fn completed(
         Ok(()) if polygon.is_periodic() => return Ok(corner(id, joint_of(second, first).angle)),
         Ok(()) => match merged([first, second], mirror, tolerance, progress) {
             Err(OperationError::Merge(MergeError::NotFound)) => {
-                receded(&part, half, mirror, progress)?
+                smoothed((&part, [first, second]), half, mirror, tolerance, progress)?
             }
-            merged => merged?,
+            merged => {
+                let halves = (&part, [first, second]);
+                with_few_vertices(merged?, halves, mirror, tolerance, progress)?
+            }
         },
         Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
-        Err(_) => bridged([first, second], mirror, progress)?,
+        Err(_) => {
+            let (whole, halves) = (
+                bridged([first, second], mirror, progress)?,
+                (&part, [first, second]),
+            );
+            with_few_vertices(whole, halves, mirror, tolerance, progress)?
+        }
     };
     let symmetric = whole.polygon;
     let deviation = whole.off + cut;
@@ -425,7 +446,8 @@ fn merged(
     tolerance: f64,
     progress: &Progress,
 ) -> Result<Whole, OperationError> {
-    let progress = progress.limited(MERGING);
+    // What it finds meanwhile is not symmetric yet.
+    let progress = progress.limited(MERGING).unshown();
     let within = |tolerance: f64| {
         let merged = merge(parts[0], parts[1], tolerance, &progress)?;
         let symmetric = merged.polygon.symmetrised(mirror)?;
@@ -471,7 +493,7 @@ fn closed(
     tolerance: f64,
     progress: &Progress,
 ) -> Result<Whole, OperationError> {
-    let limited = progress.limited(MERGING);
+    let limited = progress.limited(MERGING).unshown();
     let mut nearest: Option<Whole> = None;
     for share in OF_MERGE {
         let found = match close_halves(parts, share * tolerance, &limited) {
@@ -532,6 +554,103 @@ fn bridged(
             .map(|fault| format!("{fault}: bring the end to the axis, perpendicular to it")),
         polygon: symmetric,
     })
+}
+
+/// A whole with many more vertices than both halves have, as a bridge refines them, as one curve with fewer if one is within
+/// the tolerance.
+fn with_few_vertices(
+    whole: Whole,
+    halves: (&FloatPolygon, [&FloatPolygon; 2]),
+    mirror: &Mirror,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Whole, OperationError> {
+    let count = |polygon: &FloatPolygon| polygon.vertices().len();
+    let (part, _) = halves;
+    if count(&whole.polygon) <= 2 * (count(part) + part.degree()) || whole.fault.is_some() {
+        return Ok(whole);
+    }
+    let fitted = refitted(halves, mirror, tolerance, progress)?;
+    let fewer = fitted.filter(|fitted| count(&fitted.polygon) < count(&whole.polygon));
+    Ok(fewer.unwrap_or(whole))
+}
+
+/// Fit one curve with few extrema to points of a half and of its image; `None` if none is near, or the mirror plane is none
+/// of those that fits know.
+///
+/// Merging keeps every wave of the half, and has no room to turn a corner off. A fit may smooth both away.
+fn refitted(
+    (part, parts): (&FloatPolygon, [&FloatPolygon; 2]),
+    mirror: &Mirror,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Option<Whole>, OperationError> {
+    let axis = match mirror {
+        Mirror::Signs([true, false, false]) => SymmetryAxis::Y,
+        Mirror::Signs([false, true, false]) => SymmetryAxis::X,
+        _ => return Ok(None),
+    };
+    if !part.is_planar() {
+        return Ok(None);
+    }
+    let samples = |polygon: &FloatPolygon| {
+        let whole = [0.0, polygon.segments() as f64];
+        let steps = (0..=FITTED).map(|step| step as f64 / FITTED as f64);
+        let parameters = steps.map(|share| whole[1] * share);
+        let points = parameters.map(|u| polygon.point(u).truncate());
+        points.collect::<Vec<DVec2>>()
+    };
+    let [mut points, second] = parts.map(samples);
+    // Both meet at the axis, but for what the tolerance allows.
+    points.extend(second.into_iter().skip(1));
+    let within = (1.0 - OF_CUT) * tolerance;
+    let asked = PlaneFit {
+        degree: part.degree(),
+        tolerance: Some((1.0 - OF_CUT) * within),
+        outliers: Some(Vec::new()),
+        mirror: Some(axis),
+        of_curve: true,
+        ..PlaneFit::default()
+    };
+    let fitted = match fit_plane(&points, &asked, &progress.limited(FITTING).unshown()) {
+        Ok(fitted) => fitted,
+        Err(_) if progress.is_cancelled() => return Err(OperationError::Cancelled),
+        Err(_) => return Ok(None),
+    };
+    let off = SideDeviation::of_curve(part, &fitted.polygon, progress);
+    let off = off.map_err(|_| OperationError::Cancelled)?;
+    let off = off.largest.distance();
+    let is_near = off <= within && fitted.crossing.is_none();
+    Ok(is_near.then_some(Whole {
+        joint: [0.5 * fitted.polygon.segments() as f64; 2],
+        kept: WHOLE,
+        polygon: fitted.polygon,
+        method: "fit",
+        off,
+        bounded: false,
+        fault: None,
+        knuckle: None,
+    }))
+}
+
+/// A half and its image in one where no merged curve is as fair: one fit within the tolerance, or a bridge, or what a larger
+/// tolerance would give.
+fn smoothed(
+    halves: (&FloatPolygon, [&FloatPolygon; 2]),
+    half: Half,
+    mirror: &Mirror,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Whole, OperationError> {
+    if let Some(fitted) = refitted(halves, mirror, tolerance, progress)? {
+        return Ok(fitted);
+    }
+    let receded = receded(halves.0, half, mirror, progress)?;
+    if receded.fault.is_none() && receded.off <= (1.0 - OF_CUT) * tolerance {
+        return Ok(receded);
+    }
+    let fitted = refitted(halves, mirror, LARGER * tolerance, progress)?;
+    Ok(fitted.unwrap_or(receded))
 }
 
 /// Bridge from a half to its image, in place of what lies near the axis: where both meet at a corner that no curve as fair
