@@ -4,7 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use super::snapping::{Carried, Snap};
-use crate::document::{CurveId, Document};
+use crate::document::{Curve, CurveId, Document};
 use crate::editor::view::symmetry_axis::symmetry_axes;
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::End;
@@ -56,7 +56,7 @@ impl Line {
 
 /// Find what a dragged place of the view plane lines up with: the vertices of the `active` curve and its axis of symmetry,
 /// the ends of all visible curves with their tangents and normals, targets and the origin, as far as they are on the canvas
-/// and not `carried`.
+/// and not `carried`; a single vertex also with the legs beside it.
 ///
 /// `None` if no line is near, or the view is turned against the model, where no axis is level.
 pub fn line_up(
@@ -115,7 +115,11 @@ fn lines_near(
     for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
         let polygon = &curve.polygon;
         let goes_along = carried.item == Some(id);
-        let feels = |index: usize| goes_along || carried.vertices.contains(&(id, index));
+        let own = carried.vertices.range((id, 0)..=(id, usize::MAX));
+        let own: Vec<usize> = own.map(|(_, index)| *index).collect();
+        // The images of carried vertices move too.
+        let carried_along: Vec<usize> = own.iter().flat_map(|it| curve.dependents(*it)).collect();
+        let feels = |index: usize| goes_along || carried_along.contains(&index);
         if active == Some(id) {
             for (index, vertex) in polygon.vertices().iter().enumerate() {
                 if !feels(index) {
@@ -145,20 +149,25 @@ fn lines_near(
     }
     add(DVec3::ZERO, &LEVEL, &|| "origin".to_owned());
     let active = active.filter(|id| carried.item != Some(*id));
+    let only = carried
+        .vertices
+        .first()
+        .filter(|_| carried.vertices.len() == 1);
+    if let Some((id, index)) = only
+        && let Some(curve) = document.curve(*id)
+    {
+        let legs = leg_lines(curve, *index, viewport).into_iter();
+        lines.extend(legs.filter(|line| line.foot(place).distance(place) <= reach));
+    }
     let symmetric = active.and_then(|id| document.curve(id));
     let axes = symmetric.into_iter().flat_map(|curve| {
         let axes = symmetry_axes(curve, viewport);
         axes.map(|axis| (axis, format!("On the axis of {}", curve.name)))
     });
     for ([through, along], name) in axes {
-        let direction = match along.abs() {
-            DVec2::X => DVec2::X,
-            DVec2::Y => DVec2::Y,
-            _ => along,
-        };
         let axis = Line {
             from: through,
-            direction,
+            direction: exact(along),
             name,
         };
         // Drawn from where it is near.
@@ -170,10 +179,59 @@ fn lines_near(
     lines
 }
 
+/// The lines of a polygon on which a vertex may stand: as far from one of its neighbours as from the other, in line with
+/// both, and in line with the legs next to its own.
+fn leg_lines(curve: &Curve, index: usize, viewport: &Viewport) -> Vec<Line> {
+    let polygon = &curve.polygon;
+    let count = polygon.vertices().len();
+    let images = curve.dependents(index);
+    let neighbour = |by: isize| {
+        let at = match polygon.is_periodic() {
+            true => (index + count).checked_add_signed(by)? % count,
+            false => index.checked_add_signed(by)?,
+        };
+        let vertex = polygon.vertices().get(at)?;
+        (!images.contains(&at)).then(|| (at, viewport.flatten(*vertex)))
+    };
+    let mut lines = Vec::new();
+    if let (Some((a, from)), Some((b, to))) = (neighbour(-1), neighbour(1))
+        && let Some(along) = (to - from).try_normalize()
+    {
+        let middle = 0.5 * (from + to);
+        let line = |direction: DVec2, name: String| Line {
+            from: middle,
+            direction: exact(direction),
+            name,
+        };
+        lines.push(line(along.perp(), format!("Equal legs to {a} and {b}")));
+        lines.push(line(along, format!("In line with {a} and {b}")));
+    }
+    for side in [-1, 1] {
+        let pair = neighbour(side).zip(neighbour(2 * side));
+        let along = pair.and_then(|((_, near), (_, far))| (near - far).try_normalize());
+        if let Some((((a, near), (b, _)), along)) = pair.zip(along) {
+            lines.push(Line {
+                from: near,
+                direction: exact(along),
+                name: format!("In line with {a} and {b}"),
+            });
+        }
+    }
+    lines
+}
+
+/// A direction that is an axis up to its sign, as that axis.
+fn exact(direction: DVec2) -> DVec2 {
+    match direction.abs() {
+        DVec2::X => DVec2::X,
+        DVec2::Y => DVec2::Y,
+        _ => direction,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::Curve;
     use crate::geometry::FloatPolygon;
 
     /// What lines up with a place of the model, moved by some screen points.
@@ -208,5 +266,45 @@ mod tests {
         assert_eq!(crossing.point, DVec3::new(10.0, 80.0, 0.0));
         assert_eq!(crossing.lines.len(), 2);
         assert!(at(DVec2::new(25.0, 30.0), DVec2::ZERO).is_none());
+    }
+
+    #[test]
+    fn a_vertex_stands_between_its_neighbours_or_in_line_with_legs() {
+        let points = [
+            (0.0, 0.0),
+            (10.0, 0.0),
+            (33.0, 5.0),
+            (40.0, 20.0),
+            (40.0, 50.0),
+            (60.0, 90.0),
+        ];
+        let polygon = FloatPolygon::planar(3, &points).expect("a polygon");
+        let document = Document::from_curves([Curve::new("a", polygon)]);
+        let id = document.ids().next().expect("a curve");
+        let viewport = Viewport {
+            centre: DVec2::splat(50.0),
+            scale: 4.0,
+            ..Viewport::default()
+        };
+        let carried = Carried {
+            vertices: [(id, 2)].into(),
+            ..Carried::default()
+        };
+        let at = |x, y| line_up(DVec2::new(x, y), &document, None, &carried, &viewport);
+        // The mean of vertices 1 and 3.
+        let middle = at(25.2, 10.3).expect("a crossing");
+        assert!(middle.point.distance(DVec3::new(25.0, 10.0, 0.0)) < 1e-12);
+        assert!(
+            middle.name.contains("Equal legs to 1 and 3"),
+            "{}",
+            middle.name
+        );
+        let [a, b] = [(10.0, 0.0), (40.0, 20.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+        let bisector = at(32.6, -1.5).expect("a line").point;
+        assert!((bisector.distance(a) - bisector.distance(b)).abs() < 1e-12);
+        // On the legs beside it, prolonged, to the bit.
+        let corner = at(40.5, 0.4).expect("a crossing");
+        assert_eq!(corner.point, DVec3::new(40.0, 0.0, 0.0));
+        assert_eq!(corner.lines.len(), 2);
     }
 }
