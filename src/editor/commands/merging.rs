@@ -134,36 +134,40 @@ const BETWEEN_PICTURES: f64 = 0.05;
 
 /// Put a picture to the right of the others if it would lie on one of them.
 fn beside_others(document: &Document, picture: Reference) -> Reference {
-    let Some((_, [corner, across, _])) = picture.framed() else {
+    let Some((_, frame)) = picture.framed() else {
         return picture;
     };
+    let [_, across, up] = frame;
+    let axes = [across, up].map(|it| it.normalize_or_zero());
+    let depth = axes[0].cross(axes[1]);
+    // The sides of a frame as the new picture is seen, and how far it is before or behind it.
+    let extent = |[corner, across, up]: [DVec3; 3]| {
+        let corners = [corner, corner + across, corner + up, corner + across + up];
+        let along = |axis: DVec3| {
+            let places = corners.map(|it| it.dot(axis));
+            let low = places.into_iter().fold(f64::INFINITY, f64::min);
+            [low, places.into_iter().fold(f64::NEG_INFINITY, f64::max)]
+        };
+        [along(axes[0]), along(axes[1]), along(depth)]
+    };
+    let own = extent(frame);
     let frames = document.references().filter_map(|(_, it)| it.framed());
-    let frames: Vec<[DVec3; 3]> = frames.map(|(_, frame)| frame).collect();
+    let others: Vec<_> = frames.map(|(_, frame)| extent(frame)).collect();
     let width = across.length();
-    let is_own = |[other, ..]: &&[DVec3; 3]| other.distance(corner) < BETWEEN_PICTURES * width;
-    let Some(along) = across
-        .try_normalize()
-        .filter(|_| frames.iter().any(|it| is_own(&it)))
-    else {
+    let covers = |other: &[[f64; 2]; 3]| {
+        let mut sides = own.iter().zip(other);
+        let meets = |([low, high], [from, to]): (&[f64; 2], &[f64; 2])| low <= to && from <= high;
+        sides.all(meets)
+    };
+    if !others.iter().any(covers) {
         return picture;
-    };
-    let right = |[corner, across, up]: &[DVec3; 3]| {
-        let corners = [
-            *corner,
-            *corner + *across,
-            *corner + *up,
-            *corner + *across + *up,
-        ];
-        corners
-            .map(|it| it.dot(along))
-            .into_iter()
-            .fold(f64::NEG_INFINITY, f64::max)
-    };
-    let most = frames.iter().map(right).fold(f64::NEG_INFINITY, f64::max);
-    let by = most + BETWEEN_PICTURES * width - corner.dot(along);
-    let own = *picture.curve.placement();
-    let moved = Placement::new(own.rotation(), own.scale(), own.translation() + by * along);
-    match moved {
+    }
+    let right = others.iter().map(|[[_, right], ..]| *right);
+    let most = right.fold(f64::NEG_INFINITY, f64::max);
+    let by = most + BETWEEN_PICTURES * width - own[0][0];
+    let placement = *picture.curve.placement();
+    let translation = placement.translation() + by * axes[0];
+    match Placement::new(placement.rotation(), placement.scale(), translation) {
         Ok(placement) => Reference {
             curve: picture.curve.clone().placed(placement),
             ..picture

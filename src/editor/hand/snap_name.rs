@@ -19,8 +19,7 @@ pub fn snap_name(tool: ToolKind, context: &Context) -> Vec<Mark> {
     }
     let snap = match tool {
         // The measure tool snaps without the switch.
-        ToolKind::Measure if context.modifiers.ctrl => None,
-        ToolKind::Measure => context.object_snap(at, &carried),
+        ToolKind::Measure => context.measured_snap(at),
         ToolKind::Draw => context.drawn_snap(at),
         _ => context.snap(at, &carried),
     };

@@ -7,7 +7,7 @@ use super::tool::{Context, Effect, Tool};
 use crate::document::MatchPlace;
 use crate::editor::hand::gesture::{Gesture, is_hasty_click};
 use crate::editor::hand::input::Key;
-use crate::editor::hand::snapping::{Carried, along_axis, snap_to_grid};
+use crate::editor::hand::snapping::{along_axis, snap_to_grid};
 use crate::editor::view::scene::{Mark, MeasuredFigure};
 use crate::geometry::{End, significant};
 
@@ -48,8 +48,8 @@ impl Place {
 }
 
 impl MeasureTool {
-    /// What is meant by a place of the view plane: a vertex or an end, otherwise a point of a curve,
-    /// otherwise the grid if snapping is on, otherwise the point on the ground. Ctrl lets nothing attract.
+    /// What is meant by a place of the view plane: a vertex or an end, otherwise a point of a curve or the edge of a
+    /// picture, otherwise the grid if snapping is on, otherwise the point on the ground. Ctrl lets nothing attract.
     fn place(&self, at: DVec2, context: &Context) -> Place {
         let view = context.viewport;
         if let Some(from) = self.from.as_ref().filter(|_| context.modifiers.shift) {
@@ -63,7 +63,7 @@ impl MeasureTool {
         if context.modifiers.ctrl {
             return free(view.grounded(at));
         }
-        if let Some(snap) = context.object_snap(at, &Carried::default()) {
+        if let Some(snap) = context.measured_snap(at) {
             return Place::new(snap.point, context);
         }
         let hit = context.hits.curve(view.to_screen(at));

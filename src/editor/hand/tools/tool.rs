@@ -317,17 +317,33 @@ impl Context<'_> {
     pub fn drawn_snap(&self, place: DVec2) -> Option<Snap> {
         let carried = Carried::default();
         let follows = self.settings.draw.way.passes_points();
-        if !follows || self.ignores_edges || self.modifiers.ctrl {
+        if !follows {
             return self.snap(place, &carried);
         }
         let item = || self.item_snap(place, &carried);
-        let edge = || {
-            let edge = self.hits.picture_edge(place)?;
-            let point = self.viewport.grounded(edge);
-            Some(Snap::to(point, "Edge of picture"))
-        };
-        let found = self.snapping.then(item).flatten().or_else(edge);
+        let found = (self.snapping && !self.modifiers.ctrl).then(item).flatten();
+        let found = found.or_else(|| self.edge_snap(place));
         found.or_else(|| self.snap(place, &carried))
+    }
+
+    /// What a measured place snaps to, whether snapping is on or not: points, and edges of pictures where no curve is.
+    pub fn measured_snap(&self, place: DVec2) -> Option<Snap> {
+        if self.modifiers.ctrl {
+            return None;
+        }
+        let is_on_curve = self.hits.curve(self.viewport.to_screen(place)).is_some();
+        let edge = || (!is_on_curve).then(|| self.edge_snap(place)).flatten();
+        self.object_snap(place, &Carried::default()).or_else(edge)
+    }
+
+    /// The strongest edge of a picture near a place, unless edges are switched off.
+    fn edge_snap(&self, place: DVec2) -> Option<Snap> {
+        if self.ignores_edges || self.modifiers.ctrl {
+            return None;
+        }
+        let edge = self.hits.picture_edge(place)?;
+        let point = self.viewport.grounded(edge);
+        Some(Snap::to(point, "Edge of picture"))
     }
 
     /// The point, the intersection or the place on a reference near a place of the view plane.
