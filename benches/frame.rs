@@ -10,6 +10,7 @@ use batten::document::{Curve, Document, Edit, Reference};
 use batten::editor::{CombsOf, Command, Editor, Layer, Look};
 use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use batten::geometry::{ClampedPolygon, FloatPolygon};
+use batten::io::Decoded;
 use batten::ui::App;
 use criterion::{Bencher, BenchmarkId, Criterion, criterion_group, criterion_main};
 use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rect, vec2};
@@ -274,5 +275,53 @@ fn whiskers(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, drag, handles, crowds, whiskers);
+/// A window on a curve, before a picture of so many pixels on each side if there is one.
+fn before_picture(side: Option<u32>) -> Window {
+    let mut editor = Editor::with_document(winding(100));
+    if let Some(side) = side {
+        let pixels =
+            (0..side * side).flat_map(|at| [(at % 251) as u8, (at / side % 251) as u8, 90, 255]);
+        let picture = Decoded {
+            size: [side; 2],
+            rgba: pixels.collect(),
+        };
+        editor.paste(&picture).expect("a picture");
+    }
+    let mut window = Window::on(editor);
+    // The worker cuts it into tiles, of which a frame hands over a few.
+    for _ in 0..100 {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        window.frame(Vec::new());
+    }
+    window
+}
+
+fn panning(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("a frame while the view is panned");
+    for (name, side) in [
+        ("without a picture", None),
+        ("over a picture of 4 000 × 4 000 pixels", Some(4_000)),
+    ] {
+        let mut window = before_picture(side);
+        let at = window
+            .app
+            .canvas_rect()
+            .expect("the canvas was shown")
+            .center();
+        window.frame(vec![Event::PointerMoved(at)]);
+        window.frame(vec![Event::PointerButton {
+            pos: at,
+            button: PointerButton::Middle,
+            pressed: true,
+            modifiers: Modifiers::NONE,
+        }]);
+        let before = *window.app.editor().view().viewport();
+        window.frame(vec![Event::PointerMoved(at + vec2(30.0, 10.0))]);
+        assert_ne!(*window.app.editor().view().viewport(), before);
+        group.bench_function(name, |bencher| frames(bencher, &mut window, at));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, drag, handles, crowds, whiskers, panning);
 criterion_main!(benches);
