@@ -69,6 +69,10 @@ impl OperationFields {
                     switch.widget_info(|| {
                         WidgetInfo::selected(Role::CheckBox, true, on, parameter.label)
                     });
+                    // After a click of the pointer Enter applies, and does not switch back.
+                    if switch.clicked() && switch.interact_pointer_pos().is_some() {
+                        switch.surrender_focus();
+                    }
                     let set = switch.clicked().then_some(Value::Switch(on));
                     set.map(FieldEvent::Set)
                 }
