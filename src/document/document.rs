@@ -244,12 +244,20 @@ impl Document {
     }
 
     pub(super) fn reference_position(&self, id: CurveId) -> Option<usize> {
-        self.references.iter().position(|(other, _)| *other == id)
+        position(&self.references, id)
     }
 
     pub(super) fn position(&self, id: CurveId) -> Option<usize> {
-        self.curves.iter().position(|(other, _)| *other == id)
+        position(&self.curves, id)
     }
+}
+
+/// The place of an item. Items that nobody has reordered stand in the order of their identities: of thousands one is found
+/// at once.
+fn position<T>(items: &[(CurveId, T)], id: CurveId) -> Option<usize> {
+    let sorted = items.binary_search_by_key(&id, |(other, _)| *other);
+    let linear = |_| items.iter().position(|(other, _)| *other == id).ok_or(());
+    sorted.or_else(linear).ok()
 }
 
 /// Whether two lists hold equal items with the same identities.
