@@ -8,6 +8,7 @@ use std::hint::black_box;
 
 use batten::document::{Curve, Document, Edit, Reference};
 use batten::editor::{CombsOf, Command, Editor, Layer, Look};
+use batten::geometry::expressions::LengthUnit;
 use batten::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use batten::geometry::{ClampedPolygon, FloatPolygon};
 use batten::io::Decoded;
@@ -285,7 +286,11 @@ fn before_picture(side: Option<u32>) -> Window {
             size: [side; 2],
             rgba: pixels.collect(),
         };
+        // A document without a unit would ask for one.
+        let unit = Command::SetUnit(Some(LengthUnit::Millimetre));
+        editor.execute(unit).expect("a unit");
         editor.paste(&picture).expect("a picture");
+        assert_eq!(editor.document().references().len(), 1);
     }
     let mut window = Window::on(editor);
     // The worker cuts it into tiles, of which a frame hands over a few.
