@@ -34,32 +34,20 @@ impl Curve {
         }
     }
 
-    /// The polygon whose half at a place of the curve leads, where the curve is symmetric.
-    ///
-    /// # Errors
-    /// [`EditError::Polygon`] if numbers overflow.
-    pub fn led_from(
-        &self,
-        polygon: FloatPolygon,
-        parameter: f64,
-    ) -> Result<FloatPolygon, EditError> {
-        let Some(symmetry) = self.symmetry else {
-            return Ok(polygon);
-        };
-        let completed = symmetry.completed_from(&polygon, parameter);
-        completed.map_err(|error| self.refused(error))
-    }
-
     /// The polygon whose half at an end leads, where the curve is symmetric.
     ///
     /// # Errors
-    /// As [`Curve::led_from`].
+    /// [`EditError::Polygon`] if numbers overflow.
     pub fn led_by(&self, polygon: FloatPolygon, end: End) -> Result<FloatPolygon, EditError> {
+        let Some(symmetry) = self.symmetry else {
+            return Ok(polygon);
+        };
         let parameter = match end {
             End::Start => 0.0,
             End::Finish => polygon.segments() as f64,
         };
-        self.led_from(polygon, parameter)
+        let completed = symmetry.completed_from(&polygon, parameter);
+        completed.map_err(|error| self.refused(error))
     }
 
     /// Make the curve symmetric by the mean of both halves. A locked vertex locks its partners, and a target of one

@@ -116,14 +116,19 @@ fn a_point_of_the_curve_takes_its_image_along() {
     let mut script = vase();
     script.command(Command::Tool(ToolKind::Select));
     let polygon = script.polygon();
-    for u in [1.5, 6.5, 3.9] {
-        let at = script
-            .editor
-            .view()
-            .viewport()
-            .to_screen(polygon.point(u).truncate());
+    // Near the axis the image moves the point too; across the axis a point on it stays.
+    for (u, held) in [(1.5, false), (6.5, false), (2.8, false), (4.0, true)] {
+        let viewport = *script.editor.view().viewport();
+        let at = viewport.to_screen(polygon.point(u).truncate());
         script.drag(at, at + DVec2::new(6.0, 9.0));
         check(&script);
+        let by = script.polygon().point(u) - polygon.point(u);
+        let wanted = viewport.pixel() * DVec3::new(6.0, -9.0, 0.0);
+        let off = by.distance(wanted) / wanted.length();
+        match held {
+            true => assert!(by.x.abs() < 1e-12 * polygon.size(), "{by}"),
+            false => assert!(off < 1e-6, "{u}: {off:e}"),
+        }
         script.command(Command::Undo);
     }
 }

@@ -104,15 +104,28 @@ pub enum PointKind {
     OnCurve(f64),
 }
 
-impl DraggedPoint {
-    /// The place on the curve that it belongs to.
-    fn parameter(self, polygon: &FloatPolygon) -> f64 {
-        match self.kind {
-            PointKind::OnCurve(u) => u,
-            PointKind::Clamped(index) => polygon.clamped_greville(index),
+impl PointKind {
+    /// Where it is; `None` if the polygon does not have it.
+    pub fn place(self, polygon: &FloatPolygon) -> Option<DVec3> {
+        match self {
+            Self::Clamped(index) => {
+                let clamped = ClampedPolygon::from_float(polygon);
+                clamped.vertices().get(index).copied()
+            }
+            Self::OnCurve(u) => Some(polygon.point(u)),
         }
     }
 
+    /// The parameter that it belongs to.
+    fn parameter(self, polygon: &FloatPolygon) -> f64 {
+        match self {
+            Self::OnCurve(u) => u,
+            Self::Clamped(index) => polygon.clamped_greville(index),
+        }
+    }
+}
+
+impl DraggedPoint {
     fn by(self, by: DVec3) -> Dragged {
         match self.kind {
             PointKind::Clamped(index) => Dragged::Clamped(index, by),
@@ -136,6 +149,15 @@ pub enum FollowError {
         error: LeastChangeError,
     },
 }
+
+/// How often a point of a symmetric curve is brought nearer to where it is dragged. Each time less than half is left.
+const CORRECTIONS: usize = 8;
+
+/// What may be left then, as a share of the drag.
+const LEFT: f64 = 1e-9;
+
+/// A correction that leaves more than this share is held back by the symmetry.
+const NEARER: f64 = 0.5;
 
 /// The most neighbours on each side.
 const MOST: f64 = 1000.0;
@@ -253,21 +275,31 @@ impl Following {
         point: DraggedPoint,
         by: DVec3,
     ) -> Result<Edit, FollowError> {
-        let edit = edit(before, curve, |curve, locked| match point.kind {
-            PointKind::Clamped(index) if self.closed_stay => {
-                let polygon = &curve.polygon;
-                let clamped = ClampedPolygon::from_float(polygon);
-                let from = clamped.vertices().get(index).copied();
-                Ok(polygon.with_clamped_vertex(index, from.unwrap_or_default() + by)?)
+        edit(before, curve, |curve, locked| {
+            let reshaped = |by: DVec3| -> Result<FloatPolygon, LeastChangeError> {
+                let polygon = match point.kind {
+                    PointKind::Clamped(index) if self.closed_stay => {
+                        let from = point.kind.place(&curve.polygon).unwrap_or_default();
+                        curve.polygon.with_clamped_vertex(index, from + by)?
+                    }
+                    _ => {
+                        let reach = self.reach_of(point, locked);
+                        least_change(&curve.polygon, &point.by(by), &reach)?
+                    }
+                };
+                Ok(match curve.symmetry {
+                    Some(symmetry) => {
+                        symmetry.completed_from(&polygon, point.kind.parameter(&polygon))?
+                    }
+                    None => polygon,
+                })
+            };
+            let polygon = reshaped(by)?;
+            match (curve.symmetry, point.kind.place(&curve.polygon)) {
+                (Some(_), Some(from)) => led_to(from + by, by, polygon, point.kind, reshaped),
+                _ => Ok(polygon),
             }
-            _ => least_change(&curve.polygon, &point.by(by), &self.reach_of(point, locked)),
-        })?;
-        let Some((own, Edit::SetPolygon { polygon, .. })) = before.curve(curve).zip(Some(&edit))
-        else {
-            return Ok(edit);
-        };
-        let polygon = own.led_from(polygon.clone(), point.parameter(polygon))?;
-        Ok(Edit::SetPolygon { curve, polygon })
+        })
     }
 
     /// Measure how many times as far as a dragged point its vertices move, at most.
@@ -321,6 +353,32 @@ impl Following {
         let locked: Vec<usize> = curve.locked_vertices.iter().collect();
         follow_target(&curve.polygon, end, target, self.span(), &locked)
     }
+}
+
+/// Bring a dragged point of a symmetric curve to its place: near an axis its image moves it too. Where that does not come
+/// nearer, as at the axis across it, the polygon stays.
+fn led_to(
+    place: DVec3,
+    by: DVec3,
+    mut polygon: FloatPolygon,
+    kind: PointKind,
+    reshaped: impl Fn(DVec3) -> Result<FloatPolygon, LeastChangeError>,
+) -> Result<FloatPolygon, LeastChangeError> {
+    let missing = |polygon: &FloatPolygon| kind.place(polygon).map(|at| place - at);
+    let mut wanted = by;
+    for _ in 0..CORRECTIONS {
+        let Some(left) = missing(&polygon).filter(|it| it.length() > LEFT * by.length()) else {
+            break;
+        };
+        wanted += left;
+        let next = reshaped(wanted)?;
+        let comes_near = |it: DVec3| it.length() < NEARER * left.length();
+        if !missing(&next).is_some_and(comes_near) {
+            break;
+        }
+        polygon = next;
+    }
+    Ok(polygon)
 }
 
 /// Reshape a curve whose locked vertices stay.

@@ -8,7 +8,7 @@ use crate::document::{Curve, CurveId, quoted};
 use crate::editor::hand::following::{DraggedPoint, Followers, Following, PointKind};
 use crate::editor::hand::snapping::Carried;
 use crate::editor::view::scene::Mark;
-use crate::geometry::{ClampedPolygon, Continuity, End, FloatPolygon, significant};
+use crate::geometry::{Continuity, End, FloatPolygon, significant};
 
 /// A press near an end, by segments and by a share of all, takes the end where a drag of the point moves vertices more
 /// than so many times as far.
@@ -66,7 +66,7 @@ impl MovingPoint {
         let least_span = crowding(&curve.polygon, kind, context);
         let point = DraggedPoint { kind, least_span };
         let point = taken(curve, point, &context.following)?;
-        let from = position(&curve.polygon, point.kind).ok_or_else(String::new)?;
+        let from = point.kind.place(&curve.polygon).ok_or_else(String::new)?;
         let slide = slide(id, &curve.polygon, point.kind, context)?;
         let planar = curve.polygon.is_planar();
         let carried = Carried {
@@ -129,7 +129,7 @@ impl MovingPoint {
     /// The marks on the canvas.
     pub fn marks(&self, context: &Context) -> Vec<Mark> {
         let curve = context.document.curve(self.curve);
-        let now = curve.and_then(|curve| position(&curve.polygon, self.point.kind));
+        let now = curve.and_then(|curve| self.point.kind.place(&curve.polygon));
         let readout = now.map(|now| {
             let lag = self
                 .drag
@@ -175,7 +175,7 @@ fn slide(
             continue;
         };
         let jet = polygon.end_jet(end);
-        let place = position(polygon, kind).unwrap_or(jet.point);
+        let place = kind.place(polygon).unwrap_or(jet.point);
         match (steps, (place - jet.point).try_normalize()) {
             (0, _) => {
                 let source = context.before.name(matched.source).unwrap_or_default();
@@ -235,15 +235,4 @@ fn crowding(polygon: &FloatPolygon, kind: PointKind, context: &Context) -> usize
     let speed = polygon.jet(u).first.length() / context.viewport.pixel();
     let near = (NEAR / speed).min(polygon.vertices().len() as f64);
     (near as usize).saturating_sub(polygon.degree() / 2)
-}
-
-/// Where a point is.
-fn position(polygon: &FloatPolygon, kind: PointKind) -> Option<DVec3> {
-    match kind {
-        PointKind::Clamped(index) => {
-            let clamped = ClampedPolygon::from_float(polygon);
-            clamped.vertices().get(index).copied()
-        }
-        PointKind::OnCurve(u) => Some(polygon.point(u)),
-    }
 }
