@@ -190,11 +190,19 @@ impl<V> Object<ProjectCurve<V>, V> {
         };
         let symmetry = given.into_symmetry(&curve.polygon);
         let symmetric = symmetry.and_then(|it| curve.with_symmetry(it).ok());
-        Ok(symmetric.unwrap_or_else(|| {
-            let owner = (number, name.clone());
-            remarks.add(Remark::Asymmetric { curve: owner });
-            curve
-        }))
+        Ok(match symmetric {
+            // Either end may be the one whose target was set.
+            Some(symmetric) if curve.targets.list().len() == 2 => Curve {
+                targets: curve.targets,
+                ..symmetric
+            },
+            Some(symmetric) => symmetric,
+            None => {
+                let owner = (number, name.clone());
+                remarks.add(Remark::Asymmetric { curve: owner });
+                curve
+            }
+        })
     }
 }
 

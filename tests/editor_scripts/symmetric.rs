@@ -4,9 +4,10 @@ use batten::document::{Curve, Document, Edit, EndMatch, MatchPlace};
 use batten::editor::{Command, Editor, EndFitAction, Follow, Look, Modifiers, ToolKind};
 use batten::geometry::{Continuity, End, FloatPolygon, Mirror};
 use batten::operations::Value;
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::common::check_symmetry;
+use super::laws::check_written;
 use super::script::Script;
 
 /// Half of the vertices of a vase, from its middle on.
@@ -263,4 +264,26 @@ fn a_curve_that_is_cut_says_that_it_does_not_stay_symmetric() {
         "{}",
         script.message()
     );
+}
+
+#[test]
+fn a_slanted_axis_and_both_targets_are_read_back_to_the_bit() {
+    let mut script = vase();
+    let (id, polygon) = (script.curve(), script.polygon());
+    let turn = DMat3::from_rotation_z(0.7);
+    let vertices = polygon.vertices().iter().enumerate();
+    let moves = vertices.map(|(index, at)| (index, turn * *at)).collect();
+    let turned = vec![Edit::MoveVertices { curve: id, moves }];
+    script.editor.apply("turn", turned).expect("a turned curve");
+    check(&script);
+    script.command(Command::Tool(ToolKind::EndFit));
+    // Each end leads once: the file does not say which one did.
+    for (end, x) in [(End::Start, -31.0), (End::Finish, 29.0)] {
+        script.end_fit_action(EndFitAction::Choose(end));
+        script.end_fit_action(EndFitAction::SetPoint(DVec3::new(x, 90.0, 0.0)));
+        script.end_fit_action(EndFitAction::SetDirection(Some(DVec3::new(0.1, 1.0, 0.0))));
+        script.operate("reverse", &[]).expect("a reversed curve");
+        check(&script);
+        check_written(script.editor.document()).expect("the same project");
+    }
 }
