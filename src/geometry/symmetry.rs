@@ -286,8 +286,7 @@ impl Symmetry {
         parameter: f64,
     ) -> Result<FloatPolygon, PolygonError> {
         let count = polygon.vertices().len();
-        // The Greville abscissa of vertex i is i − (n − 1) / 2.
-        let place = parameter + 0.5 * (polygon.degree() as f64 - 1.0);
+        let place = parameter - polygon.greville(0);
         let distance = |index: usize| {
             let straight = (index as f64 - place).abs();
             match polygon.is_periodic() {

@@ -144,10 +144,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let axes = values.choice(&AXIS, &[[true, false, false], [false, true, false]]);
     let mirror = plane_or_line(values, axes)?;
     let mut outcome = made(input, values, mirror, progress)?;
-    let made = outcome.applied_to(&without_symmetry(input.document(), id)?)?;
     // A rule that the curve has already would take the result back to its own axis.
-    let stays = values.switch(&STAY) || curve.symmetry.is_some();
-    if let (true, Some(made)) = (stays, made.curve(id)) {
+    if !values.switch(&STAY) && curve.symmetry.is_none() {
+        return Ok(outcome);
+    }
+    let made = outcome.applied_to(&without_symmetry(input.document(), id)?)?;
+    if let Some(made) = made.curve(id) {
         let both = Symmetry::about_both(mirror, &made.polygon);
         let both = both.filter(|it| it.holds(&made.polygon));
         let one = Symmetry::about(mirror, &made.polygon);
