@@ -195,3 +195,24 @@ fn bands_are_shown_on_the_canvas_by_choice() {
     script.command(Command::ToggleBands);
     assert!(bands(&mut script));
 }
+
+#[test]
+fn joints_of_a_curve_with_many_segments_are_drawn_where_they_are_apart() {
+    let mut script = even(3000);
+    for (scale, some) in [(0.3, false), (5.0, false), (12.0, true), (40.0, true)] {
+        scale_to(&mut script, scale);
+        let joints = script.scene().curves[0].joints.clone();
+        assert_eq!(!joints.is_empty(), some, "{scale}");
+        // One each unit over the canvas and its border, in the order of the curve.
+        let seen = 1000.0 / scale;
+        let expected = if some { seen } else { 0.0 };
+        assert!(
+            (joints.len() as f64 - expected).abs() < 5.0,
+            "{scale}: {}",
+            joints.len()
+        );
+        for [[from, _], [to, _]] in joints.array_windows() {
+            assert!((to.x - from.x - 1.0).abs() < 1e-9, "{from} {to}");
+        }
+    }
+}

@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 use crate::analysis::{PieceSampler, Sample, SampledCurve, mark_closer};
 use crate::editor::view::blocks::Blocks;
 use crate::editor::view::comb::{CombSettings, Teeth};
+use crate::editor::view::density::disc;
 use crate::editor::view::evolute::Evolute;
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{Bounds, GAP, Outline, OutlineKey, ViewBox, append_gap, thin};
@@ -114,6 +115,43 @@ impl CurveOutlines {
         let eye = self.blocks.eye;
         let place = move |sample: &Sample| eye.flatten(sample.point);
         self.append_chain(sampled, view, out, (CURVE, 0), place);
+    }
+
+    /// Append the visible joints between pieces, with the curve's normals, which are shorter where the joints crowd.
+    pub fn append_joints(
+        &self,
+        SampledCurve { curve, samples }: SampledCurve<'_>,
+        view: &ViewBox,
+        out: &mut Vec<[DVec2; 2]>,
+    ) {
+        let (eye, pieces) = (self.blocks.eye, samples.pieces());
+        let ends = |piece: usize| {
+            let own = samples.piece(piece);
+            Some((own.first()?, own.last()?))
+        };
+        let mut step_before = samples.blocks().last().map_or(0.0, |it| it.longest_step);
+        for (index, (own, block)) in self.blocks.iter().zip(samples.blocks()).enumerate() {
+            // No piece is longer, nor the one before the first.
+            let longest = samples.steps() as f64 * block.longest_step.max(step_before);
+            step_before = block.longest_step;
+            if disc(longest / view.pixel) == 0.0 || !own.bounds.meets(view) {
+                continue;
+            }
+            for piece in samples.block_pieces(index) {
+                let previous = match piece.checked_sub(1) {
+                    None if !curve.is_periodic() => continue,
+                    previous => previous.unwrap_or(pieces - 1),
+                };
+                let Some(((start, joint), (_, end))) = ends(previous).zip(ends(piece)) else {
+                    continue;
+                };
+                let [last, at, next] = [start, joint, end].map(|sample| eye.flatten(sample.point));
+                let size = disc(0.5 * (last.distance(at) + at.distance(next)) / view.pixel);
+                if size > 0.0 && view.holds(at) {
+                    out.push([at, f64::from(size) * eye.flatten(joint.normal)]);
+                }
+            }
+        }
     }
 
     /// Append the visible part of the evolute. It breaks where it passes through infinity, and is refined

@@ -10,11 +10,10 @@ use crate::document::{Colour, Curve, CurveId, Document};
 use crate::editor::selection::Selection;
 use crate::editor::view::comb::CombSettings;
 use crate::editor::view::curve_outlines::{CurveOutlines, PieceTrend};
-use crate::editor::view::density::{disc, disc_among_kept};
+use crate::editor::view::density::disc_among_kept;
 use crate::editor::view::end_marks::{self, EndFitMarks};
 use crate::editor::view::feature_report::{FeatureMark, append_marks};
 use crate::editor::view::layers::{Layer, Layers};
-use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::{GAP, ViewBox};
 use crate::editor::view::outlines::Sketch;
 use crate::editor::view::overlay::Overlay;
@@ -25,9 +24,6 @@ use crate::geometry::{End, FloatPolygon};
 
 /// Screen points around the canvas that are drawn too, so that strokes run off it.
 const BORDER: f64 = 16.0;
-
-/// Where pieces are smaller than this on the whole, in screen points, joints are not looked at.
-const JOINT_SPACING: f64 = 6.0;
 
 impl View {
     /// Make the scene of the analysed curves.
@@ -165,7 +161,6 @@ impl View {
     ) {
         let locked = &curve.locked_vertices;
         let (layers, comb, active) = (shown.layers, self.comb, scene.active);
-        let orientation = self.viewport.orientation;
         self.append_features(shown, active, view, &mut scene.features);
         let shows_bands = layers.shows(Layer::Features) && !self.bands_only_plotted;
         let outlined = self.outlines.get_mut(id);
@@ -175,7 +170,7 @@ impl View {
         let sampled = analysis.sampled();
         if layers.shows(Layer::Curve) {
             outlined.curve.append_curve(sampled, view, &mut scene.curve);
-            append_joints(sampled, &orientation, view, &mut scene.joints);
+            outlined.curve.append_joints(sampled, view, &mut scene.joints);
         }
         if layers.shows(Layer::Float) {
             let (outlines, chain) = (&outlined.float, analysis.float());
@@ -364,39 +359,4 @@ fn append_comb(
         outlines.append_comb(sampled, view, &comb, &mut scene.comb);
         outlines.append_teeth(sampled, view, &comb, &mut scene.teeth);
     }
-}
-
-/// Append the joints between pieces, with the curve's normals, which are shorter where the joints crowd.
-fn append_joints(
-    SampledCurve { curve, samples }: SampledCurve<'_>,
-    eye: &Orientation,
-    view: &ViewBox,
-    out: &mut Vec<[DVec2; 2]>,
-) {
-    let pieces = samples.pieces();
-    // Where a whole piece is smaller than that everywhere there is nothing to draw.
-    if pieces as f64 * JOINT_SPACING * view.pixel > 4.0 * extent(view) {
-        return;
-    }
-    let ends = |piece: usize| {
-        let own = samples.piece(piece);
-        Some((own.first()?, own.last()?))
-    };
-    let from = usize::from(!curve.is_periodic());
-    for piece in from..pieces {
-        let before = ends(if piece == 0 { pieces - 1 } else { piece - 1 });
-        let Some(((start, joint), (_, end))) = before.zip(ends(piece)) else {
-            continue;
-        };
-        let [last, at, next] = [start, joint, end].map(|sample| eye.flatten(sample.point));
-        let size = disc(0.5 * (last.distance(at) + at.distance(next)) / view.pixel);
-        if size > 0.0 && view.holds(at) {
-            out.push([at, f64::from(size) * eye.flatten(joint.normal)]);
-        }
-    }
-}
-
-fn extent(view: &ViewBox) -> f64 {
-    let size = view.high - view.low;
-    size.x + size.y
 }
