@@ -1,13 +1,16 @@
 //! Several curves at once: whose is what is hovered, copied, cut, exported and named.
 
 use batten::document::{Curve, CurveId, Document, Edit};
-use batten::editor::{Command, Editor, HoverScene, Key, Look, Modifiers, ToolKind};
+use batten::editor::{
+    CombsOf, Command, Editor, HoverScene, Input, Key, Layer, Look, Modifiers, NamedView, ToolKind,
+};
 use batten::geometry::end_correction::EndTarget;
-use batten::geometry::{ClampedPolygon, End, FloatPolygon, PolygonKind};
+use batten::geometry::{ClampedPolygon, Continuity, End, FloatPolygon, PolygonKind};
 use batten::io::disk;
 use batten::operations::{self, Inputs, Value};
 use glam::{DVec2, DVec3};
 
+use super::common::matched;
 use super::script::Script;
 use super::window::exporter;
 
@@ -67,6 +70,85 @@ fn what_is_hovered_is_told_of_the_curve_it_is_on() {
     script.editor.activate(other);
     script.scene();
     assert!(script.plots().hovered.is_some());
+}
+
+/// What the canvas shows of all curves, written out.
+fn shown(script: &mut Script) -> Vec<String> {
+    let curves = &script.scene().curves;
+    curves.iter().map(|curve| format!("{curve:?}")).collect()
+}
+
+/// Check that what was kept of the frames before is what is drawn anew once another layer is shown.
+#[track_caller]
+fn check_kept(script: &mut Script) {
+    let kept = shown(script);
+    script.command(Command::ToggleLayer(Layer::Grid));
+    script.scene();
+    script.command(Command::ToggleLayer(Layer::Grid));
+    let anew = shown(script);
+    assert!(kept == anew, "kept: {kept:#?}\nanew: {anew:#?}");
+}
+
+#[test]
+fn what_is_kept_of_other_curves_is_what_they_are_now() {
+    let (document, [first, second]) = matched(Continuity::G2, 9.0);
+    let mut editor = Editor::with_document(document);
+    editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
+    let mut script = Script { editor };
+    script.editor.activate(first);
+    script.command(Command::FitAll);
+    check_kept(&mut script);
+    // The second curve follows a drag of the first, and comes back with Esc.
+    let before = shown(&mut script);
+    let at = script.at_vertex_of(first, 7);
+    script.press(at);
+    script.move_to(at + DVec2::new(12.0, -9.0));
+    assert_ne!(shown(&mut script)[0], before[0]);
+    check_kept(&mut script);
+    script.key(Key::Escape);
+    script.move_to(DVec2::ZERO);
+    assert_eq!(shown(&mut script)[0], before[0]);
+    script.drag(at, at + DVec2::new(12.0, -9.0));
+    check_kept(&mut script);
+    let at = DVec2::new(300.0, 200.0);
+    script.input(Input::Zoomed { at, factor: 2.0 });
+    check_kept(&mut script);
+    for combs in [CombsOf::Visible, CombsOf::Selected] {
+        script.command(Command::ShowCombs(combs));
+        check_kept(&mut script);
+    }
+    let mut comb = script.editor.view().comb();
+    comb.scale *= 3.0;
+    script.editor.view_mut().set_comb(comb);
+    script.command(Command::ShowCombs(CombsOf::Visible));
+    check_kept(&mut script);
+    // A selected vertex of the second curve, which then is the active one, and goes back.
+    script.editor.select_vertex(second, 4, false);
+    check_kept(&mut script);
+    script.editor.activate(first);
+    check_kept(&mut script);
+    script.editor.hand_mut().select_items([first, second]);
+    check_kept(&mut script);
+    let curve = second;
+    for edit in [
+        Edit::SetLocked {
+            curve,
+            locked: true,
+        },
+        Edit::SetVisible {
+            curve,
+            visible: false,
+        },
+    ] {
+        script.editor.change(edit).expect("an edit");
+        check_kept(&mut script);
+    }
+    script.command(Command::View(NamedView::Isometric));
+    check_kept(&mut script);
+    for _ in 0..3 {
+        script.command(Command::Undo);
+        check_kept(&mut script);
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use crate::analysis::SampledCurve;
+use crate::analysis::{Item, SampledCurve};
 use crate::document::{Colour, Curve, CurveId, Document};
 use crate::editor::selection::Selection;
 use crate::editor::view::comb::CombSettings;
@@ -17,7 +17,7 @@ use crate::editor::view::layers::{Layer, Layers};
 use crate::editor::view::outline::{GAP, ViewBox};
 use crate::editor::view::outlines::Sketch;
 use crate::editor::view::overlay::Overlay;
-use crate::editor::view::scene::{ClampedMark, CurveScene, PictureScene, VertexMark};
+use crate::editor::view::scene::{ClampedMark, CurveScene, PictureScene, SceneSource, VertexMark};
 use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
 use crate::geometry::{End, FloatPolygon};
@@ -92,14 +92,43 @@ impl View {
         scenes.resize_with(references.len() + curves.len(), CurveScene::default);
         let (behind, before) = scenes.split_at_mut(references.len());
         for ((id, reference), scene) in references.into_iter().zip(behind) {
-            scene.begin(id, shown.selection, reference.locked, reference.colour);
-            scene.is_reference = true;
-            self.draw_reference(shown, id, view, scene);
+            let source = self.scene_source(shown, (id, Item::Reference(reference.clone())), view);
+            if source.is_none() || scene.source != source {
+                scene.begin(id, shown.selection, reference.locked, reference.colour);
+                scene.is_reference = true;
+                self.draw_reference(shown, id, view, scene);
+                scene.source = source;
+            }
         }
         for ((id, curve), scene) in curves.into_iter().zip(before) {
-            scene.begin(id, shown.selection, curve.locked, curve.colour);
-            self.draw_curve(shown, id, curve, view, scene);
+            let source = self.scene_source(shown, (id, Item::Curve(curve.clone())), view);
+            if source.is_none() || scene.source != source {
+                scene.begin(id, shown.selection, curve.locked, curve.colour);
+                self.draw_curve(shown, id, curve, view, scene);
+                scene.source = source;
+            }
         }
+    }
+
+    /// What the scene of an inactive curve or reference is made of, as long as none of its vertices is selected; `None`
+    /// of others.
+    fn scene_source(
+        &self,
+        shown: Shown<'_>,
+        (id, item): (CurveId, Item),
+        view: &ViewBox,
+    ) -> Option<SceneSource> {
+        let selection = shown.selection;
+        let is_plain = shown.active() != Some(id) && selection.of_curve(id).next().is_none();
+        is_plain.then(|| SceneSource {
+            id,
+            item,
+            view: *view,
+            orientation: self.viewport.orientation,
+            layers: shown.layers,
+            comb: self.combs_of.takes(id, selection).then_some(self.comb),
+            selected: selection.has_several_items() && selection.has_item(id),
+        })
     }
 
     fn draw_reference(
@@ -170,7 +199,9 @@ impl View {
         let sampled = analysis.sampled();
         if layers.shows(Layer::Curve) {
             outlined.curve.append_curve(sampled, view, &mut scene.curve);
-            outlined.curve.append_joints(sampled, view, &mut scene.joints);
+            outlined
+                .curve
+                .append_joints(sampled, view, &mut scene.joints);
         }
         if layers.shows(Layer::Float) {
             let (outlines, chain) = (&outlined.float, analysis.float());
@@ -316,6 +347,7 @@ impl CurveScene {
     }
 
     fn clear(&mut self) {
+        self.source = None;
         self.id = None;
         self.colour = None;
         self.teeth.clear();

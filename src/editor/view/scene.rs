@@ -4,11 +4,15 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+use crate::analysis::Item;
 use crate::document::{Colour, CurveId};
 use crate::editor::jobs::pyramid::Pyramid;
+use crate::editor::view::comb::CombSettings;
 use crate::editor::view::end_marks::EndFitMarks;
 use crate::editor::view::feature_report::FeatureMark;
-use crate::editor::view::outline::append_gap;
+use crate::editor::view::layers::Layers;
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::outline::{ViewBox, append_gap};
 use crate::geometry::degrees_text;
 
 /// All that is on the canvas, from back to front. Chains are points in the model's plane; a NaN
@@ -50,6 +54,8 @@ pub struct PictureScene {
 /// The layers of one curve or reference; those that are not shown are empty.
 #[derive(Clone, Debug, Default)]
 pub struct CurveScene {
+    /// What it was made of, if it can be kept for the next frame.
+    pub(super) source: Option<SceneSource>,
     /// The curve or the reference.
     pub id: Option<CurveId>,
     /// Whether it is a reference.
@@ -89,6 +95,18 @@ pub struct CurveScene {
     pub features: Vec<FeatureMark>,
     /// The joints between segments: points with the curve's normals, of length 1 or less where they crowd.
     pub joints: Vec<[DVec2; 2]>,
+}
+
+/// All that the scene of an inactive curve or reference depends on.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SceneSource {
+    pub(super) id: CurveId,
+    pub(super) item: Item,
+    pub(super) view: ViewBox,
+    pub(super) orientation: Orientation,
+    pub(super) layers: Layers,
+    pub(super) comb: Option<CombSettings>,
+    pub(super) selected: bool,
 }
 
 /// The legs of a polygon, by the strength with which they are drawn: where they crowd they fade.
