@@ -149,6 +149,12 @@ impl ParametricCurve for FloatPolygon {
     }
 
     fn fill_derivatives(&self, piece: usize, t: f64, values: &mut [DVec3]) {
+        // Distances take few derivatives, of very many points.
+        if values.len() <= 3 {
+            let derivatives: [DVec3; 3] = self.segment_derivatives(piece, t);
+            values.copy_from_slice(&derivatives[..values.len()]);
+            return;
+        }
         let derivatives: [DVec3; LEVEL_ORDER + 1] = self.segment_derivatives(piece, t);
         values.copy_from_slice(&derivatives[..values.len()]);
     }

@@ -15,7 +15,6 @@ use crate::geometry::progress::Progress;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
 use crate::geometry::root::maximum;
 use crate::geometry::spacing::Spacing;
-use crate::geometry::vector;
 
 /// Samples a piece, of a curve with many pieces.
 const SAMPLES: usize = 16;
@@ -214,17 +213,16 @@ impl Pieces<'_> {
         self.0.jet(u).point
     }
 
-    /// Twice its signed area, if it is closed.
-    fn area(&self) -> Option<f64> {
-        let points: Vec<DVec3> = self.parameters().iter().map(|u| self.point(*u)).collect();
-        let (low, high) = vector::bounds(points.iter());
-        let first = *points.first()?;
-        let gap = first.distance(*points.last()?);
-        let is_closed = self.0.is_periodic() || gap <= CLOSED * low.distance(high);
-        let sides = points.array_windows();
+    /// Twice its signed area by its samples, if it is closed.
+    fn area(&self, target: &Target) -> Option<f64> {
+        let samples = target.samples();
+        let (_, first) = *samples.first()?;
+        let gap = first.distance(samples.last()?.1);
+        let is_closed = self.0.is_periodic() || gap <= CLOSED * target.size();
+        let sides = samples.array_windows();
         is_closed.then(|| {
             sides
-                .map(|[from, to]| (*from - first).cross(*to - first).z)
+                .map(|[(_, from), (_, to)]| (*from - first).cross(*to - first).z)
                 .sum()
         })
     }
@@ -259,10 +257,11 @@ struct Sample {
 
 impl<'a> Side<'a> {
     fn new(other: &'a Pieces<'a>, progress: &'a Progress) -> Result<Self, DistanceError> {
+        let target = other.target()?;
         Ok(Self {
             other: *other,
-            target: other.target()?,
-            area: other.area(),
+            area: other.area(&target),
+            target,
             near: Cell::new(0.0),
             progress,
         })

@@ -69,6 +69,11 @@ impl<'a> Target<'a> {
         })
     }
 
+    /// Its samples: parameters and points.
+    pub(super) fn samples(&self) -> &[(f64, DVec3)] {
+        &self.samples
+    }
+
     /// The diagonal of the box of its samples.
     pub(super) fn size(&self) -> f64 {
         let whole = self.levels.last().and_then(|level| level.first());
