@@ -18,6 +18,10 @@ use eframe::egui::{Context, Event, Modifiers, PointerButton, Pos2, RawInput, Rec
 use glam::{DVec2, DVec3};
 use winding::winding;
 
+/// The allocator of the program.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 const SIZE: [f32; 2] = [1440.0, 900.0];
 
 /// A frame of a display with 60 in a second.

@@ -5,6 +5,11 @@ use std::process::ExitCode;
 
 use batten::cli::{self, Request};
 
+/// Keeps the memory of a frame for the next one.
+#[cfg(feature = "gui")]
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     match cli::run(std::env::args_os()) {
         Request::Done(code) => code,
