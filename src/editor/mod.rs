@@ -42,9 +42,9 @@ pub use view::{
     Bounds, ChainOutlines, ClampedMark, CombSettings, CombsOf, CurvatureDisplay, CurveOutlines,
     CurveScene, DragReadout, EndFitMarks, EvoluteCrowd, FeatureKind, FeatureMark, FeatureReport,
     FeatureRow, GAP, GroundGrid, GuideLabel, GuideScene, HoverScene, Layer, LayerRow, LayerSample,
-    Layers, Legs, Look, LossArrow, Mark, MeasuredFigure, NamedView, Orientation, PictureScene,
-    PieceTrend, PlotBand, PlotKind, PlotScene, REACH, Scene, Sight, VertexMark, View, ViewBox,
-    Viewport, Whiskers, grid_steps, ground_grid, view_name,
+    Layers, Legs, Look, LossArrow, Mark, MeasuredFigure, NamedView, Orientation, PaneLayout,
+    PaneView, PictureScene, PieceTrend, PlotBand, PlotKind, PlotScene, REACH, Scene, Sight,
+    VertexMark, View, ViewBox, Viewport, Whiskers, grid_steps, ground_grid, view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};
 
@@ -142,10 +142,10 @@ impl Editor {
     /// Change how the model is seen.
     pub fn look(&mut self, look: Look) {
         let layers = self.hand.layers(self.view.layers);
-        let before = self.view.viewport.orientation;
+        let before = self.view.pane.viewport.orientation;
         self.view
             .look(look, self.hand.shown(&self.workspace, layers));
-        if self.view.viewport.orientation != before {
+        if self.view.pane.viewport.orientation != before {
             self.hand.set_pivot(None);
         }
     }
@@ -159,6 +159,16 @@ impl Editor {
         let mut overlay = self.overlay();
         let shown = self.hand.shown(&self.workspace, layers);
         self.view.guide(shown, &overlay);
+        let operation = self.operations.current(&self.workspace, shown.active());
+        self.view.each_other_pane(|view| {
+            view.analyse(shown.document());
+            let viewport = &view.pane.viewport;
+            let points = operation.map(|it| it.point_marks(viewport, &view.whiskers, None));
+            let previewed = operation.filter(|it| !it.is_applied());
+            let marks = previewed.map(|it| it.marks(viewport));
+            let marks = points.into_iter().chain(marks).flatten().collect();
+            view.draw(shown, &mut overlay.elsewhere(marks));
+        });
         self.view.draw(shown, &mut overlay);
         self.view.draw_plot(shown, &overlay);
     }
@@ -171,7 +181,7 @@ impl Editor {
             marks.extend(measurement.marks(context.hits));
         }
         let (active, operation) = (self.active(), self.operation());
-        let (viewport, pointer) = (&self.view.viewport, self.hand.gestures.pointer());
+        let (viewport, pointer) = (&self.view.pane.viewport, self.hand.gestures.pointer());
         let previewed = self.previewed_operation();
         match previewed {
             Some(previewed) => {

@@ -33,7 +33,8 @@ use super::tool_rail::{self, tool_rail_ui};
 use super::{canvas, overlays, unit_menu, widgets};
 use crate::editor::{
     Command, CopyForm, CurvatureDisplay, DrawSettings, DrawWay, Editor, FileAnswer, Layer, MenuOf,
-    MenuSubject, PictureChange, Refusal, Reply, ToolKind, end_drawing, is_project, told,
+    MenuSubject, PaneLayout, PictureChange, Refusal, Reply, ToolKind, end_drawing, is_project,
+    told,
 };
 
 use crate::io::{DXF, ExportChoice, Exporter, PROJECT, formats};
@@ -151,9 +152,9 @@ impl App {
         &self.editor
     }
 
-    /// Where the canvas is, in points of the window; `None` before the first frame.
+    /// Where the canvas is, or its pane in use, in points of the window; `None` before the first frame.
     pub fn canvas_rect(&self) -> Option<egui::Rect> {
-        self.canvas.rect()
+        self.canvas.pane()
     }
 
     /// Show one frame of the window.
@@ -292,7 +293,8 @@ impl App {
         let canvas = CentralPanel::default().frame(Frame::NONE.fill(tokens.background));
         canvas.show(ui, |ui| {
             self.canvas.show(ui, &mut self.editor);
-            if let Some(rect) = self.canvas.rect() {
+            let is_one = self.editor.view().pane_layout() == PaneLayout::One;
+            if let Some(rect) = self.canvas.rect().filter(|_| is_one) {
                 gizmo_ui(ui, rect, &mut self.editor, &mut self.actions);
             }
         });
@@ -332,7 +334,8 @@ impl App {
         if let Some(rect) = self.canvas.rect() {
             layer_strip_ui(context, rect, &mut self.editor, &mut self.actions);
             message_ui(context, rect, &mut self.editor, &mut self.actions);
-            if self.editor.sight().is_orbited() {
+            let is_one = self.editor.view().pane_layout() == PaneLayout::One;
+            if is_one && self.editor.sight().is_orbited() {
                 overlays::orbited_ui(context, rect, &mut self.actions);
             }
             if self.editor.view().evolute.is_hidden {
@@ -351,7 +354,7 @@ impl App {
                 overlays::empty_ui(context, rect);
             }
         }
-        let canvas = self.canvas.rect().map_or(egui::Pos2::ZERO, |rect| rect.min);
+        let canvas = self.canvas.pane().map_or(egui::Pos2::ZERO, |rect| rect.min);
         let (shell, actions) = (&self.shell, &mut self.actions);
         self.context_menu
             .show(context, canvas, &mut self.editor, shell, actions);

@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::time::Duration;
 
 use eframe::egui::{
-    self, Context, CursorIcon, Event, EventFilter, Id, MouseWheelSource, MouseWheelUnit,
-    PointerButton, Pos2, Rect, Role, Sense, Ui, WidgetInfo,
+    self, Align2, Context, CursorIcon, Event, EventFilter, Id, MouseWheelSource, MouseWheelUnit,
+    PointerButton, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
 };
 use glam::DVec2;
 
@@ -13,9 +13,11 @@ use super::brush::Brush;
 use super::chains::Screen;
 use super::keyboard::Steering;
 use super::pictures::PictureTextures;
-use super::theme::Tokens;
-use super::{gizmo, grid, keyboard, painting, widgets};
-use crate::editor::{Button, Cursor, Editor, Input, Key, Layer, Look, Modifiers};
+use super::theme::{self, STEP, Tokens};
+use super::{gizmo, grid, keyboard, labels, painting, widgets};
+use crate::editor::{
+    Button, Cursor, Editor, Input, Key, Layer, Look, Modifiers, PaneLayout, PaneView, view_name,
+};
 
 /// Points of the wheel that scale by the factor e.
 pub const WHEEL_POINTS: f64 = 220.0;
@@ -28,6 +30,8 @@ const REST: f32 = 0.3;
 pub struct Canvas {
     /// Where it was in the last frame.
     rect: Option<Rect>,
+    /// Where the pane in use was.
+    pane: Option<Rect>,
     /// The buttons that went down on the canvas and are still held.
     held: Vec<PointerButton>,
     /// Whether the pointer is on the canvas.
@@ -57,6 +61,11 @@ impl Canvas {
     /// Where the canvas is, once it was shown.
     pub fn rect(&self) -> Option<Rect> {
         self.rect
+    }
+
+    /// Where the pane in use is, once it was shown.
+    pub fn pane(&self) -> Option<Rect> {
+        self.pane
     }
 
     /// Whether fingers on a touchpad turn the wheel.
@@ -247,7 +256,7 @@ impl Canvas {
         let layer = context.layer_id_at(pos);
         let is_behind = layer.is_some_and(|layer| layer.order != egui::Order::Background);
         let is_on = |rect: Rect| {
-            let gizmo = gizmo::place(rect);
+            let gizmo = gizmo::place(rect).filter(|_| self.pane == self.rect);
             rect.contains(pos) && !gizmo.is_some_and(|gizmo| gizmo.contains(pos))
         };
         self.rect.is_some_and(is_on) && !is_behind
@@ -346,32 +355,44 @@ impl Canvas {
         if self.inside || !self.held.is_empty() {
             ui.set_cursor_icon(cursor_icon(editor.cursor()));
         }
-        let painter = ui.painter_at(rect);
         let tokens = Tokens::of(ui);
-        painter.rect_filled(rect, 0, tokens.background);
-        let has_grid = editor.sight().layers().shows(Layer::Grid);
-        let viewport = *editor.view().viewport();
-        let brush = Brush {
-            painter: &painter,
-            screen: Screen::new(&viewport, rect),
-            rect,
-            tokens,
-            overlays: widgets::overlays(ui.ctx()),
-            texts: RefCell::default(),
-        };
+        // What is seen between panes.
+        ui.painter_at(rect).rect_filled(rect, 0, tokens.outline);
         // Panels may have changed the scene.
         editor.refresh();
-        let scene = editor.view().scene();
-        if has_grid {
-            grid::paint(&brush);
+        let has_grid = editor.sight().layers().shows(Layer::Grid);
+        let overlays = widgets::overlays(ui.ctx());
+        self.pictures.begin_frame();
+        for pane in editor.view().panes() {
+            let own = pane_rect(rect, &pane);
+            let painter = ui.painter_at(own);
+            painter.rect_filled(own, 0, tokens.background);
+            let brush = Brush {
+                painter: &painter,
+                screen: Screen::new(pane.viewport, own),
+                rect: own,
+                tokens,
+                overlays: overlays.clone(),
+                texts: RefCell::default(),
+            };
+            if has_grid {
+                grid::paint(&brush);
+            }
+            // The grid shines through: on top of a picture it would hide edges.
+            self.pictures.paint(&brush, &pane.scene.pictures);
+            painting::paint(&brush, pane.scene);
+            if has_grid {
+                grid::paint_numbers(&brush);
+            }
+            painting::paint_hand(&brush, pane.scene);
+            if pane.is_used {
+                self.pane = Some(own);
+            }
+            if editor.view().pane_layout() != PaneLayout::One {
+                name_ui(ui, &brush, &pane);
+            }
         }
-        // The grid shines through: on top of a picture it would hide edges.
-        self.pictures.paint(&brush, &scene.pictures);
-        painting::paint(&brush, scene);
-        if has_grid {
-            grid::paint_numbers(&brush);
-        }
-        painting::paint_hand(&brush, scene);
+        self.pictures.end_frame();
     }
 
     /// Give the canvas the keyboard whenever nothing else wants it, with Tab and arrow keys.
@@ -391,6 +412,43 @@ impl Canvas {
                 memory.set_focus_lock_filter(id(), all);
             }
         });
+    }
+}
+
+/// Where a pane of the canvas is in the window.
+fn pane_rect(canvas: Rect, pane: &PaneView) -> Rect {
+    let [corner, size] = [pane.corner, pane.viewport.size].map(|it| vec2(it.x as f32, it.y as f32));
+    Rect::from_min_size(canvas.min + corner, size)
+}
+
+/// Name the side from which a pane sees the model, in its lower right corner, and frame the pane in use.
+fn name_ui(ui: &Ui, brush: &Brush<'_>, pane: &PaneView) {
+    let (name, tokens) = (view_name(&pane.viewport.orientation), brush.tokens);
+    let colour = match pane.is_used {
+        true => tokens.strong_text,
+        false => tokens.faint_text,
+    };
+    // Above the numbers of the grid.
+    let at = brush.rect.right_bottom() - vec2(2.0 * STEP, 6.0 * STEP);
+    let font = theme::small_font();
+    let size = labels::size(brush.painter, name, font.clone());
+    let place = Align2::RIGHT_BOTTOM.anchor_size(at, size);
+    labels::paint(
+        brush,
+        place.left_top(),
+        Align2::LEFT_TOP,
+        name,
+        font,
+        colour,
+    );
+    let label = format!("Pane: {name}");
+    let response = ui.interact(place, Id::unique(("pane", name)), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
+    if pane.is_used {
+        let stroke = Stroke::new(1.0, tokens.accent);
+        brush
+            .painter
+            .rect_stroke(brush.rect, 0, stroke, StrokeKind::Inside);
     }
 }
 

@@ -11,7 +11,7 @@ use super::shell::Shell;
 use super::widgets;
 use crate::editor::{
     Arrangement, CombsOf, Command, CopyForm, CurvatureDisplay, Editor, Follow, Layer, NamedView,
-    ToolKind,
+    PaneLayout, ToolKind,
 };
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::KINDS;
@@ -265,8 +265,10 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
     view.push(Entry::Submenu("Show curvature", displays.into()));
     let combs = CombsOf::ALL.map(|of| command(Command::ShowCombs(of)));
     view.push(Entry::Submenu("Combs", combs.into()));
+    let panes = PaneLayout::ALL.map(|layout| command(Command::Panes(layout)));
     view.extend([
         views(),
+        Entry::Submenu("Panes", panes.into()),
         Divider,
         command(Command::ResetComb),
         Divider,

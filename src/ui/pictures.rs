@@ -51,10 +51,14 @@ struct Placed<'a> {
 }
 
 impl PictureTextures {
-    /// Paint pictures from back to front.
-    pub fn paint(&mut self, brush: &Brush<'_>, pictures: &[PictureScene]) {
+    /// Begin a frame, in which each pane paints pictures.
+    pub fn begin_frame(&mut self) {
         self.frame += 1;
         self.handed = 0;
+    }
+
+    /// Paint pictures from back to front.
+    pub fn paint(&mut self, brush: &Brush<'_>, pictures: &[PictureScene]) {
         for scene in pictures {
             let [across, up] = scene.sides;
             let corner = brush.screen.exact(scene.corner + up);
@@ -74,6 +78,10 @@ impl PictureTextures {
                 Err(reason) => paint_reason(brush, corner + 0.5 * (sides[0] + sides[1]), reason),
             }
         }
+    }
+
+    /// End a frame: forget tiles that no pane has used, if there are many.
+    pub fn end_frame(&mut self) {
         if self.kept.len() > MOST_KEPT {
             let frame = self.frame;
             self.kept.retain(|_, tile| tile.used == frame);

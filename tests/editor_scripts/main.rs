@@ -43,6 +43,7 @@ mod menus;
 mod model;
 mod moving_several;
 mod operating_several;
+mod panes;
 mod paper;
 mod pictures;
 mod places;

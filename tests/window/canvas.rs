@@ -87,6 +87,56 @@ fn a_badge_leads_back_from_a_stray_turn_of_the_view() {
 }
 
 #[test]
+fn a_vertex_is_dragged_in_each_of_four_panes() {
+    let mut window = open_window();
+    let whole = window.state().canvas_rect().expect("a canvas");
+    choose(&mut window, &["View", "Panes", "Four views"]);
+    for name in ["Top", "Isometric", "Front", "Right"] {
+        assert!(
+            window.query_by_label(&format!("Pane: {name}")).is_some(),
+            "{name}"
+        );
+    }
+    // The gizmo and the badge belong to a single view.
+    assert!(window.query_by_label_contains("Axes: drag").is_none());
+    for (right, below, kept) in [(false, false, 2), (false, true, 1), (true, true, 0)] {
+        let middle = whole.center();
+        let side = |far: bool| if far { 0.5 } else { -0.5 };
+        let away = 0.5 * vec2(side(right) * whole.width(), side(below) * whole.height());
+        window.hover_at(middle + away);
+        window.run();
+        let pane = window.state().canvas_rect().expect("a pane");
+        assert!(pane.contains(middle + away) && pane.width() < 0.5 * whole.width());
+        let before = curve(&window);
+        let at = vertex(&window, 3);
+        drag(&mut window, at, at + vec2(12.0, -9.0));
+        let moved = curve(&window).polygon.vertex(3) - before.polygon.vertex(3);
+        assert_eq!(moved[kept], 0.0);
+        assert!(moved.length() > 0.0, "{kept}");
+    }
+    // A menu opens where it was asked for.
+    let at = window.state().canvas_rect().expect("a pane").center() + vec2(90.0, 60.0);
+    window.hover_at(at);
+    for pressed in [true, false] {
+        window.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.run();
+    }
+    let item = window.get_by_label_contains("Select all").rect();
+    assert!(
+        item.left() > at.x - 5.0 && item.top() > at.y - 250.0,
+        "{item:?} {at:?}"
+    );
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    choose(&mut window, &["View", "Panes", "One view"]);
+    assert_eq!(window.state().canvas_rect(), Some(whole));
+}
+
+#[test]
 fn an_arrow_key_that_is_held_makes_one_step() {
     let mut window = open_window();
     let at = vertex(&window, 3);

@@ -101,7 +101,7 @@ impl Editor {
         references: Vec<Reference>,
         mut edits: Vec<Edit>,
     ) -> Reply {
-        let offset = OFFSET * self.view.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
+        let offset = OFFSET * self.view.pane.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
         let mut names: Vec<String> = self.document().names().map(str::to_owned).collect();
         let mut free = |name: &str| {
             let name = free_name(name, |name| names.iter().any(|taken| taken == name));

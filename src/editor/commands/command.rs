@@ -6,7 +6,7 @@ use crate::editor::hand::input::{Key, Modifiers};
 use crate::editor::hand::tools::{Arrangement, ToolKind};
 use crate::editor::same_shape::KEEP_SHAPE;
 use crate::editor::view::layers::Layer;
-use crate::editor::view::{CombsOf, CurvatureDisplay, NamedView};
+use crate::editor::view::{CombsOf, CurvatureDisplay, NamedView, PaneLayout};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{KINDS, ReferenceKind};
 use crate::operations::{self, Operation};
@@ -62,6 +62,8 @@ pub enum Command {
     ZoomOut,
     /// See the model from a certain side.
     View(NamedView),
+    /// See the model in one pane, or in several at once.
+    Panes(PaneLayout),
     /// Give the comb a legible scale.
     ResetComb,
     /// Go to the feature that is chosen in the list.
@@ -139,6 +141,7 @@ impl Command {
                 | Self::ZoomIn
                 | Self::ZoomOut
                 | Self::View(_)
+                | Self::Panes(_)
                 | Self::ResetComb
                 | Self::GoToFeature
                 | Self::Compare(_)
@@ -187,6 +190,7 @@ impl Command {
         all.push(Self::AddFormula);
         all.extend([Self::Fit, Self::FitAll, Self::ZoomIn, Self::ZoomOut]);
         all.extend(NamedView::ALL.map(Self::View));
+        all.extend(PaneLayout::ALL.map(Self::Panes));
         all.extend([Self::ResetComb, Self::GoToFeature, Self::Compare(None)]);
         all.extend(Layer::ALL.map(Self::ToggleLayer));
         all.push(Self::ToggleBands);
@@ -234,6 +238,7 @@ impl Command {
             Self::ZoomIn => "Zoom in",
             Self::ZoomOut => "Zoom out",
             Self::View(view) => view.label(),
+            Self::Panes(layout) => layout.label(),
             Self::ResetComb => "Reset comb scale",
             Self::GoToFeature => "Go to feature",
             Self::Compare(None) => "Compare with nothing",
@@ -295,6 +300,7 @@ impl Command {
             Self::ZoomIn => "Enlarge the view",
             Self::ZoomOut => "Show more of the model",
             Self::View(_) => "See the model from this side; drag with the right button to orbit",
+            Self::Panes(layout) => layout.tooltip(),
             Self::ResetComb => "Scale the curvature comb to a readable size",
             Self::GoToFeature => "Show the surroundings of the feature that is chosen in the list",
             Self::Compare(None) => "Show the plots of the active curve alone",

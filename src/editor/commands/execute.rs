@@ -116,7 +116,7 @@ impl Editor {
 
     /// Execute a command that only changes the view.
     fn show(&mut self, command: Command) {
-        let viewport = &mut self.view.viewport;
+        let viewport = &mut self.view.pane.viewport;
         let middle = 0.5 * viewport.size;
         match command {
             Command::ZoomIn => viewport.zoom(middle, ZOOM),
@@ -124,6 +124,7 @@ impl Editor {
             Command::Fit => self.look(Look::Selection),
             Command::FitAll => self.look(Look::All),
             Command::View(view) => self.look(Look::From(view.orientation())),
+            Command::Panes(layout) => self.look(Look::Panes(layout)),
             Command::ResetComb => self.look(Look::ResetComb),
             Command::GoToFeature => {
                 if let Some(u) = self.view.chosen_feature() {

@@ -46,7 +46,7 @@ impl Command {
             Command::GoToFeature => editor.view.chosen_feature().is_some(),
             Command::Compare(other) => active && other.is_none_or(can_compare),
             // A drag moves vertices in the plane of this view.
-            Command::View(_) => !editor.hand.is_dragging(),
+            Command::View(_) | Command::Panes(_) => !editor.hand.is_dragging(),
             _ => true,
         }
     }
@@ -77,7 +77,10 @@ impl Command {
                 let previewed = editor.previewed_operation();
                 Some(previewed.is_some_and(|it| it.operation() == operation))
             }
-            Command::View(view) => Some(editor.view.viewport.orientation == view.orientation()),
+            Command::View(view) => {
+                Some(editor.view.pane.viewport.orientation == view.orientation())
+            }
+            Command::Panes(layout) => Some(editor.view.pane_layout() == layout),
             Command::SetUnit(unit) => Some(editor.document().unit() == unit),
             Command::TogglePeriodic => Some(items::are_periodic(document, &items)),
             Command::ToggleSymmetric => Some(items::are_symmetric(document, &items)),

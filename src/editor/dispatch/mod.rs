@@ -37,7 +37,8 @@ enum Step {
 
 impl Editor {
     /// Take an input from the canvas.
-    pub fn input(&mut self, input: Input) {
+    pub fn input(&mut self, mut input: Input) {
+        self.enter_pane(&mut input);
         if let Input::Modifiers(modifiers) = input {
             self.hand.modifiers = modifiers;
         }
@@ -91,7 +92,7 @@ impl Editor {
         let repeats = matches!(input, Input::KeyRepeated(_));
         for gesture in self.hand.gestures.input(input) {
             match gesture {
-                Gesture::Pan(by) => self.view.viewport.pan(by),
+                Gesture::Pan(by) => self.view.pane.viewport.pan(by),
                 Gesture::Orbit(by) => self.look(Look::Orbit(by)),
                 Gesture::Zoom(at, factor) if self.hand.turns_following() => {
                     let stiffer = self.hand.modifiers.shift;
@@ -103,10 +104,30 @@ impl Editor {
                     }
                     self.deliver(Gesture::Drag(at), repeats);
                 }
-                Gesture::Zoom(at, factor) => self.view.viewport.zoom(at, factor),
+                Gesture::Zoom(at, factor) => self.view.pane.viewport.zoom(at, factor),
                 Gesture::Key(Key::Tab) => self.hand.cycle.next(self.hand.gestures.pointer()),
                 gesture => self.deliver(gesture, repeats),
             }
+        }
+    }
+
+    /// Use the pane that the pointer is in, unless the hand holds something in another one, and tell the place within
+    /// it.
+    fn enter_pane(&mut self, input: &mut Input) {
+        let before = self.view.pane.viewport.orientation;
+        let stays = matches!(input, Input::Pressed { .. } | Input::Zoomed { .. });
+        let is_free = self.hand.gestures.is_free();
+        if is_free && *input == Input::Left {
+            self.view.use_chosen_pane();
+        }
+        if let Some(at) = input.place_mut() {
+            if is_free {
+                self.view.use_pane_at(*at, stays);
+            }
+            *at -= self.view.pane_corner();
+        }
+        if self.view.pane.viewport.orientation != before {
+            self.hand.set_pivot(None);
         }
     }
 
@@ -127,7 +148,7 @@ impl Editor {
         }
         let previewed = self.previewed_operation();
         let at = self.hand.gestures.pointer();
-        let viewport = &self.view.viewport;
+        let viewport = &self.view.pane.viewport;
         let is_over_handle =
             |it: &OperationInProgress| at.is_some_and(|at| it.handle_at(viewport, at).is_some());
         if previewed.is_some_and(OperationInProgress::drags_handle) {
@@ -175,7 +196,7 @@ impl Editor {
         let previewed = self.previewed_operation();
         let drags_handle = previewed.is_some_and(OperationInProgress::drags_handle);
         let at = self.hand.gestures.pointer();
-        let viewport = &self.view.viewport;
+        let viewport = &self.view.pane.viewport;
         let is_over_handle =
             |it: &OperationInProgress| at.is_some_and(|at| it.handle_at(viewport, at).is_some());
         if drags_handle || previewed.is_some_and(is_over_handle) {
@@ -232,7 +253,7 @@ impl Editor {
             }
             MenuOf::Selection => {
                 let document = self.workspace.document();
-                let viewport = &self.view.viewport;
+                let viewport = &self.view.pane.viewport;
                 return self.hand.ask_for_menu_of_selection(document, viewport);
             }
         };

@@ -10,7 +10,10 @@ impl Editor {
     /// Preview a typed text as far as it can be read: the vertex that it would set, or the rotation or scaling. An
     /// empty text takes the preview back. Returns whether the preview has changed.
     pub fn type_entry(&mut self, text: &str) -> bool {
-        let (entry, unit) = (self.hand.entry(&self.view.viewport), self.document().unit());
+        let (entry, unit) = (
+            self.hand.entry(&self.view.pane.viewport),
+            self.document().unit(),
+        );
         if let Some(Entry::Angle | Entry::Factor) = entry {
             let typed = self.hand.typed_transformation(text, unit).ok();
             // A drag ends as soon as typing begins: both set the same figure.
@@ -34,7 +37,7 @@ impl Editor {
     /// [`EntryError`] if the text cannot be read or nothing can be done; nothing is changed then.
     pub fn enter(&mut self, text: &str) -> Result<(), EntryError> {
         let unit = self.document().unit();
-        match self.hand.entry(&self.view.viewport) {
+        match self.hand.entry(&self.view.pane.viewport) {
             Some(Entry::Point(_)) => {
                 let typed = TypedPoint::read(text, unit)?;
                 if self.previewed_operation().is_some() {

@@ -95,6 +95,11 @@ impl GestureMachine {
         matches!(self.state, State::Pressed { .. } | State::Dragging)
     }
 
+    /// Whether no button is held.
+    pub fn is_free(&self) -> bool {
+        self.state == State::Idle
+    }
+
     /// Whether the view is being pushed, or would be by a press.
     pub fn is_panning(&self) -> bool {
         self.space || matches!(self.state, State::Panning { .. })

@@ -113,7 +113,7 @@ impl Hand {
             document: workspace.document(),
             before: workspace.settled(),
             selection: &self.selection,
-            viewport: &view.viewport,
+            viewport: &view.pane.viewport,
             hits: view.sight(self.shown(workspace, layers)),
             modifiers: self.modifiers,
             axis: self.axis,
@@ -125,7 +125,7 @@ impl Hand {
             added: self.keeping.added(),
             held_back: self.keeping.held_back(),
             settings: &self.settings,
-            pointer: pointer.map(|at| view.viewport.to_model(at)),
+            pointer: pointer.map(|at| view.pane.viewport.to_model(at)),
             rested: self.gestures.rested(),
             typed: self.typed,
         }

@@ -141,3 +141,18 @@ pub enum Input {
     /// The modifier keys that are held have changed.
     Modifiers(Modifiers),
 }
+
+impl Input {
+    /// Where it happens, if that counts.
+    pub(in crate::editor) fn place_mut(&mut self) -> Option<&mut DVec2> {
+        match self {
+            Self::Moved { at }
+            | Self::Rested { at }
+            | Self::Pressed { at, .. }
+            | Self::Released { at, .. }
+            | Self::DoubleClicked { at }
+            | Self::Zoomed { at, .. } => Some(at),
+            _ => None,
+        }
+    }
+}

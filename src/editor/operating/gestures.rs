@@ -35,7 +35,7 @@ impl Operating<'_> {
         let taken = match gesture {
             Gesture::DragStart(at) => self.begin_handle_drag(at),
             Gesture::Click(at) | Gesture::DoubleClick(at) => {
-                let on_handle = previewed.handle_at(&self.view.viewport, at).is_some();
+                let on_handle = previewed.handle_at(&self.view.pane.viewport, at).is_some();
                 on_handle || self.click_on_curve(at)
             }
             Gesture::Drag(at) => {

@@ -19,7 +19,7 @@ const ANGLE_STEP: f64 = 15.0;
 impl Operating<'_> {
     /// Begin to drag the handle at a place on the canvas. Returns whether there is one.
     pub(in crate::editor) fn begin_handle_drag(&mut self, at: DVec2) -> bool {
-        let viewport = &self.view.viewport;
+        let viewport = &self.view.pane.viewport;
         let from = viewport.to_model(at);
         let drag = self.current().and_then(|current| {
             Some(HandleDrag {

@@ -143,7 +143,7 @@ impl Operating<'_> {
     /// Cancel the preview with the selection and the view before it, or forget the operation that was applied last. The
     /// view stays where the user has turned it.
     pub fn leave(&mut self) {
-        let framings = self.previewed().map(|it| it.framings);
+        let framings = self.previewed().map(|it| it.framings.clone());
         self.end();
         if let Some((before, Some(own))) = framings
             && own.sees_as(&self.view.framing())
@@ -685,7 +685,7 @@ impl Operating<'_> {
         self.view.look(look, shown);
         if let Some(current) = &mut self.operations.operation {
             let own = &mut current.framings.1;
-            if own.is_none_or(|own| own.sees_as(&framing)) {
+            if own.as_ref().is_none_or(|own| own.sees_as(&framing)) {
                 *own = Some(self.view.framing());
             }
         }

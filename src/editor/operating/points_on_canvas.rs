@@ -168,7 +168,7 @@ impl Operating<'_> {
 
     /// Whether the operation fits points that are all in sight.
     pub(super) fn sees_points(&self) -> bool {
-        let (viewport, view) = (&self.view.viewport, self.view.viewport.view_box());
+        let (viewport, view) = (&self.view.pane.viewport, self.view.pane.viewport.view_box());
         self.current().is_some_and(|current| {
             let mut points = current.input.points().iter();
             current.fits_points() && points.all(|point| view.holds(viewport.flatten(*point)))

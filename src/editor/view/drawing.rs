@@ -28,8 +28,8 @@ const BORDER: f64 = 16.0;
 impl View {
     /// Make the scene of the analysed curves.
     pub(in crate::editor) fn draw(&mut self, shown: Shown<'_>, overlay: &mut Overlay) {
-        let mut scene = std::mem::take(&mut self.scene);
-        let mut view = self.viewport.view_box();
+        let mut scene = std::mem::take(&mut self.pane.scene);
+        let mut view = self.pane.viewport.view_box();
         let border = BORDER * view.pixel;
         view.low -= border;
         view.high += border;
@@ -58,12 +58,12 @@ impl View {
         scene.marks.extend(sight.joint_marks());
         sight.draw_guides(&mut scene.guides);
         scene.hover = sight.hover(overlay);
-        self.scene = scene;
+        self.pane.scene = scene;
     }
 
     /// The pictures of visible references, in their order.
     fn drawn_pictures(&self, document: &Document) -> impl Iterator<Item = PictureScene> {
-        let orientation = &self.viewport.orientation;
+        let orientation = &self.pane.viewport.orientation;
         let references = document.references().filter(|(_, it)| it.visible);
         references.filter_map(move |(_, reference)| {
             let (picture, [corner, across, up]) = reference.framed()?;
@@ -124,7 +124,7 @@ impl View {
             id,
             item,
             view: *view,
-            orientation: self.viewport.orientation,
+            orientation: self.pane.viewport.orientation,
             layers: shown.layers,
             comb: self.combs_of.takes(id, selection).then_some(self.comb),
             selected: selection.has_several_items() && selection.has_item(id),
@@ -138,10 +138,10 @@ impl View {
         view: &ViewBox,
         scene: &mut CurveScene,
     ) {
-        let orientation = self.viewport.orientation;
+        let orientation = self.pane.viewport.orientation;
         self.append_features(shown, scene.active, view, &mut scene.features);
         let (layers, comb) = (shown.layers, self.comb);
-        let outlined = self.outlines.get_mut(id);
+        let outlined = self.pane.outlines.get_mut(id);
         let Some((analysis, outlined)) = self.analyses.reference(id).zip(outlined) else {
             return;
         };
@@ -176,7 +176,7 @@ impl View {
             && active
             && shown.layers.shows(Layer::Features)
         {
-            append_marks(report, &self.viewport.orientation, view, out);
+            append_marks(report, &self.pane.viewport.orientation, view, out);
         }
     }
 
@@ -192,7 +192,7 @@ impl View {
         let (layers, comb, active) = (shown.layers, self.comb, scene.active);
         self.append_features(shown, active, view, &mut scene.features);
         let shows_bands = layers.shows(Layer::Features) && !self.bands_only_plotted;
-        let outlined = self.outlines.get_mut(id);
+        let outlined = self.pane.outlines.get_mut(id);
         let Some((analysis, outlined)) = self.analyses.get(id).zip(outlined) else {
             return;
         };
@@ -278,13 +278,15 @@ impl View {
         scene: &mut CurveScene,
     ) {
         scene.clear();
-        let eye = self.viewport.orientation;
+        let eye = self.pane.viewport.orientation;
         if let Some(before) = &overlay.before {
-            self.ghost.append(before, eye, view, scene, false);
+            self.pane.ghost.append(before, eye, view, scene, false);
         }
         let others = &overlay.others_before;
-        self.other_ghosts.resize_with(others.len(), Sketch::default);
-        for (ghost, other) in self.other_ghosts.iter_mut().zip(others) {
+        self.pane
+            .other_ghosts
+            .resize_with(others.len(), Sketch::default);
+        for (ghost, other) in self.pane.other_ghosts.iter_mut().zip(others) {
             scene.curve.push(GAP);
             ghost.append(other, eye, view, scene, false);
         }
@@ -307,10 +309,10 @@ impl View {
         scene.colour = changed.and_then(|id| document.curve(id)?.colour);
         let curve = Arc::new(Curve::new(String::new(), polygon));
         let (eye, clamped) = (
-            self.viewport.orientation,
+            self.pane.viewport.orientation,
             shown.layers.shows(Layer::Clamped),
         );
-        self.proposed.append(&curve, eye, view, scene, clamped);
+        self.pane.proposed.append(&curve, eye, view, scene, clamped);
     }
 
     /// Draw the targets of all ends, and the marks of the end that the end-fit tool corrects.
@@ -322,7 +324,7 @@ impl View {
                 let chosen = shown.active() == Some(id) && fitted == Some(end);
                 let matched = document.match_of(id, end);
                 let matched = matched.map(|matched| document.meets(matched));
-                let marks = end_marks::marks(curve, end, chosen, matched, &self.viewport);
+                let marks = end_marks::marks(curve, end, chosen, matched, &self.pane.viewport);
                 out.extend(marks.map(|mut marks| {
                     if !shown.layers.shows(Layer::Float) {
                         marks.terminal.clear();

@@ -35,15 +35,25 @@ impl View {
     /// Fit everything into the canvas, and give the comb a legible scale.
     pub(super) fn fit_all(&mut self, shown: Shown<'_>) {
         self.reset_comb(shown);
-        self.show_all(shown);
+        self.each_pane(|view| {
+            view.analyse(shown.document());
+            view.show_all(shown);
+        });
     }
 
     pub(super) fn set_canvas_size(&mut self, size: DVec2, shown: Shown<'_>) {
+        if size.min_element() >= 1.0 {
+            self.canvas = size;
+            self.size_panes(shown);
+        }
+    }
+
+    pub(super) fn set_pane_size(&mut self, size: DVec2, shown: Shown<'_>) {
         if !(size.min_element() >= 1.0) {
             return;
         }
-        let is_fitted = self.fitted == Some(self.fitted_now(shown));
-        self.viewport.size = size;
+        let is_fitted = self.pane.fitted == Some(self.fitted_now(shown));
+        self.pane.viewport.size = size;
         if !self.placed {
             self.placed = true;
             self.fit_all(shown);
@@ -57,28 +67,29 @@ impl View {
     fn show_all(&mut self, shown: Shown<'_>) {
         let document = shown.document();
         let visible = document.all_ids().filter(|id| document.is_visible(*id));
-        let bounds = self.bounds_of_all(visible, shown);
+        let visible: Vec<CurveId> = visible.collect();
+        let bounds = self.bounds_of_all(&visible, shown);
         self.fit_bounds(&bounds, document);
-        self.fitted = Some(self.fitted_now(shown));
+        self.pane.fitted = Some(self.fitted_now(shown));
     }
 
     /// Fit a box, and turn the view about the middle of all from now on.
     fn fit_bounds(&mut self, bounds: &Bounds, document: &Document) {
-        self.viewport = self.viewport.fitted(bounds);
-        self.target = middle(document);
+        self.pane.viewport = self.pane.viewport.fitted(bounds);
+        self.pane.target = middle(document);
     }
 
     /// The view and the state of the document that it shows.
     fn fitted_now(&self, shown: Shown<'_>) -> (Viewport, u64) {
-        (self.viewport, shown.workspace.revision())
+        (self.pane.viewport, shown.workspace.revision())
     }
 
     pub(super) fn bring_into_sight(&mut self, new: &[CurveId], shown: Shown<'_>) {
         self.analyse(shown.document());
-        let seen = self.viewport.view_box();
+        let seen = self.pane.viewport.view_box();
         // The curve alone: the view stays where a polygon goes beyond the points that were drawn.
         let is_hidden = |id: &CurveId| {
-            let bounds = self.outlines.get(*id).map(|it| it.curve.bounds());
+            let bounds = self.pane.outlines.get(*id).map(|it| it.curve.bounds());
             let is_outside =
                 |it: Bounds| it.low.cmplt(seen.low).any() || it.high.cmpgt(seen.high).any();
             bounds.is_some_and(is_outside)
@@ -88,13 +99,13 @@ impl View {
         }
         let comb = self.comb;
         self.reset_comb(shown);
-        let curves = new.iter().filter_map(|id| self.outlines.get(*id));
+        let curves = new.iter().filter_map(|id| self.pane.outlines.get(*id));
         let alone = curves.map(|it| it.curve.bounds());
         let alone = alone.fold(Bounds::EMPTY, Bounds::united);
-        let seen = self.viewport.view_box();
+        let seen = self.pane.viewport.view_box();
         let (extent, side) = (alone.high - alone.low, seen.high - seen.low);
         if extent.max_element() < SPECK * side.min_element() {
-            let bounds = self.bounds_of_all(new.iter().copied(), shown);
+            let bounds = self.bounds_of_all(new, shown);
             self.fit_bounds(&bounds, shown.document());
         } else if self.is_legible(comb, shown) {
             self.comb = comb;
@@ -141,7 +152,7 @@ impl View {
     pub(super) fn whole_comb_scale(&self, shown: Shown<'_>) -> Option<f64> {
         let (mut size, mut largest) = (0.0_f64, 0.0_f64);
         for id in self.with_comb(shown) {
-            let known = self.analyses.sampled(id).zip(self.outlines.get(id));
+            let known = self.analyses.sampled(id).zip(self.pane.outlines.get(id));
             let Some((sampled, outlined)) = known else {
                 continue;
             };
@@ -174,29 +185,38 @@ impl View {
             return self.fit_items(shown);
         }
         self.reset_comb(shown);
-        let mut bounds = Bounds::EMPTY;
-        for (curve, index) in shown.selection.vertices() {
-            if let Some(curve) = shown.document().curve(curve) {
-                bounds.add(self.viewport.flatten(curve.polygon.vertex(index)));
+        let (document, selection) = (shown.document(), shown.selection);
+        let vertices = selection
+            .vertices()
+            .filter_map(|(id, index)| Some(document.curve(id)?.polygon.vertex(index)));
+        let vertices: Vec<DVec3> = vertices.collect();
+        self.each_pane(|view| {
+            let mut bounds = Bounds::EMPTY;
+            for vertex in &vertices {
+                bounds.add(view.pane.viewport.flatten(*vertex));
             }
-        }
-        self.viewport = self.viewport.fitted(&bounds);
+            view.pane.viewport = view.pane.viewport.fitted(&bounds);
+        });
     }
 
     /// Fit the selected curves and references, as far as they are visible.
     fn fit_items(&mut self, shown: Shown<'_>) {
         self.reset_comb(shown);
-        let items = shown.selection.items().into_iter();
-        let items = items.filter(|id| shown.document().is_visible(*id));
-        let bounds = self.bounds_of_all(items, shown);
-        match bounds.is_empty() {
-            true => self.fit_all(shown),
-            false => self.fit_bounds(&bounds, shown.document()),
+        let document = shown.document();
+        let mut items = shown.selection.items();
+        items.retain(|id| document.is_visible(*id));
+        if self.bounds_of_all(&items, shown).is_empty() {
+            return self.fit_all(shown);
         }
+        self.each_pane(|view| {
+            view.analyse(document);
+            let bounds = view.bounds_of_all(&items, shown);
+            view.fit_bounds(&bounds, document);
+        });
     }
 
-    fn bounds_of_all(&self, ids: impl Iterator<Item = CurveId>, shown: Shown<'_>) -> Bounds {
-        let bounds = ids.map(|id| self.bounds_of(id, shown));
+    fn bounds_of_all(&self, ids: &[CurveId], shown: Shown<'_>) -> Bounds {
+        let bounds = ids.iter().map(|id| self.bounds_of(*id, shown));
         bounds.fold(Bounds::EMPTY, Bounds::united)
     }
 
@@ -209,14 +229,14 @@ impl View {
         let vertices = polygon.vertices();
         let mut bounds = Bounds::EMPTY;
         for vertex in vertices.iter().take(vertices.len() - tail).skip(tail) {
-            bounds.add(self.viewport.flatten(*vertex));
+            bounds.add(self.pane.viewport.flatten(*vertex));
         }
         bounds
     }
 
     fn bounds_of(&self, id: CurveId, shown: Shown<'_>) -> Bounds {
         let (layers, scale) = (shown.layers, self.comb.scale);
-        let outlined = self.outlines.get(id);
+        let outlined = self.pane.outlines.get(id);
         let Some((sampled, outlined)) = self.analyses.sampled(id).zip(outlined) else {
             return Bounds::EMPTY;
         };

@@ -150,10 +150,8 @@ impl<'a> Sight<'a> {
         share: impl Fn(f64) -> f32,
         spacing: impl Fn(SeenChain) -> f64,
     ) -> bool {
-        let View {
-            analyses, outlines, ..
-        } = self.view;
-        let known = analyses.get(curve).zip(outlines.get(curve));
+        let View { analyses, pane, .. } = self.view;
+        let known = analyses.get(curve).zip(pane.outlines.get(curve));
         known.is_none_or(|(analysis, outlined)| {
             let seen = outlined.float.seen(analysis.float());
             share(spacing(seen) * self.viewport().scale) > 0.0
@@ -172,7 +170,7 @@ impl<'a> Sight<'a> {
         let distance = |vertex: &DVec3| self.viewport().flatten(*vertex).distance(model);
         let distances = vertices.iter().map(distance).enumerate();
         let (index, nearest) = distances.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let outlines = &self.view.outlines.get(id)?.clamped;
+        let outlines = &self.view.pane.outlines.get(id)?.clamped;
         let spacing = outlines.seen(chain).spacing(index);
         let is_seen = density::disc(spacing * self.viewport().scale) > 0.0;
         (is_seen && nearest <= reach * self.viewport().pixel()).then_some((nearest, (id, index)))
@@ -219,7 +217,7 @@ impl<'a> Sight<'a> {
         let model = self.viewport().to_model(place);
         let reach = reach * self.viewport().pixel();
         let sampled = self.view.analyses.sampled(id)?;
-        let outlines = &self.view.outlines.get(id)?.curve;
+        let outlines = &self.view.pane.outlines.get(id)?.curve;
         let (u, point, distance) = outlines.nearest(sampled, model, reach)?;
         let curve = id;
         Some((distance, CurveHit { curve, u, point }))
@@ -241,7 +239,7 @@ impl<'a> Sight<'a> {
         }
         let sampled = self.view.analyses.sampled(id)?;
         let (model, pixel) = (self.viewport().to_model(place), self.viewport().pixel());
-        let outlines = &self.view.outlines.get(id)?.curve;
+        let outlines = &self.view.pane.outlines.get(id)?.curve;
         let (reach, shortest) = (REACH * pixel, SHORTEST_TOOTH * pixel);
         outlines.tooth(sampled, &self.view.comb, model, reach, shortest)
     }
@@ -349,7 +347,7 @@ impl<'a> Sight<'a> {
             .view
             .analyses
             .sampled(id)
-            .zip(self.view.outlines.get(id));
+            .zip(self.view.pane.outlines.get(id));
         let Some((sampled, outlined)) = known else {
             return false;
         };

@@ -54,7 +54,7 @@ impl Sight<'_> {
         let reach = REACH * self.viewport().pixel();
         let passes = shown.filter_map(|id| {
             let sampled = self.view.analyses.sampled(id)?;
-            let outlines = &self.view.outlines.get(id)?.curve;
+            let outlines = &self.view.pane.outlines.get(id)?.curve;
             let passes = outlines.passes(sampled, model, reach).into_iter();
             Some(passes.map(move |(u, point, _)| CurveHit {
                 curve: id,

@@ -8,6 +8,7 @@ use crate::editor::view::fitting::middle;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::Bounds;
+use crate::editor::view::panes::PaneLayout;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
 
@@ -20,7 +21,7 @@ const ROOM: f64 = 1.0;
 /// Radians that the view turns by for each screen point of a drag.
 const TURN: f64 = 0.008;
 
-/// A change of the view.
+/// A change of the view. What shows a part of the model shows it in every pane; a pane turns alone.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Look {
     /// Fit everything into the canvas, and give the comb a legible scale.
@@ -54,6 +55,8 @@ pub enum Look {
     /// The size of the canvas in screen points. A view that shows everything is fitted again, unless the hand
     /// holds something; otherwise the middle of the view stays where it is.
     Canvas(DVec2),
+    /// Show the model in so many panes.
+    Panes(PaneLayout),
 }
 
 impl View {
@@ -61,10 +64,10 @@ impl View {
     pub(in crate::editor) fn look(&mut self, look: Look, shown: Shown<'_>) {
         match look {
             Look::All => self.fit_all(shown),
-            Look::Begin(points) => self.begin_at(&points),
-            Look::Include(point) => self.include(point),
+            Look::Begin(points) => self.each_pane(|view| view.begin_at(&points)),
+            Look::Include(point) => self.each_pane(|view| view.include(point)),
             Look::Selection => self.fit_selection(shown),
-            Look::New(curves) => self.bring_into_sight(&curves, shown),
+            Look::New(curves) => self.each_pane(|view| view.bring_into_sight(&curves, shown)),
             Look::Comb(comb) => self.set_comb(comb),
             Look::ResetComb => self.reset_comb(shown),
             Look::SuitComb => self.suit_comb(shown),
@@ -73,31 +76,36 @@ impl View {
             Look::Feature(u) => self.choose_feature(u, shown),
             Look::From(orientation) => self.look_from(orientation, shown),
             Look::Orbit(by) if by.is_finite() => {
-                let turned = self.viewport.orientation.orbited(TURN * by.x, TURN * by.y);
+                let turned = self
+                    .pane
+                    .viewport
+                    .orientation
+                    .orbited(TURN * by.x, TURN * by.y);
                 self.look_from(turned, shown);
             }
             Look::Orbit(_) => {}
             Look::Canvas(size) => self.set_canvas_size(size, shown),
+            Look::Panes(layout) => self.lay_out(layout, shown),
         }
     }
 
     fn begin_at(&mut self, points: &[DVec3]) {
         let mut bounds = Bounds::EMPTY;
         for point in points {
-            bounds.add(self.viewport.flatten(*point));
+            bounds.add(self.pane.viewport.flatten(*point));
         }
-        self.viewport = self.viewport.fitted(&bounds.grown(ROOM));
+        self.pane.viewport = self.pane.viewport.fitted(&bounds.grown(ROOM));
     }
 
     fn include(&mut self, point: DVec3) {
-        let seen = self.viewport.view_box();
-        let at = self.viewport.flatten(point);
+        let seen = self.pane.viewport.view_box();
+        let at = self.pane.viewport.flatten(point);
         if at.is_finite() && at != at.clamp(seen.low, seen.high) {
             let mut bounds = Bounds::EMPTY;
             for corner in [seen.low, seen.high, at] {
                 bounds.add(corner);
             }
-            self.viewport = self.viewport.fitted(&bounds);
+            self.pane.viewport = self.pane.viewport.fitted(&bounds);
         }
     }
 
@@ -106,7 +114,8 @@ impl View {
             return;
         };
         let jet = curve.jet(u.clamp(0.0, curve.pieces() as f64));
-        self.show_around(jet.point, SURROUNDINGS * jet.speed());
+        let reach = SURROUNDINGS * jet.speed();
+        self.each_pane(|view| view.show_around(jet.point, reach));
         self.layers.set(Layer::Features, true);
         self.layers.set(Layer::Curve, true);
     }
@@ -121,23 +130,23 @@ impl View {
         };
         let speeds = joint.ends.into_iter().filter_map(speed);
         let reach = SURROUNDINGS * speeds.fold(joint.joint.gap, f64::max);
-        self.show_around(joint.point, reach);
+        self.each_pane(|view| view.show_around(joint.point, reach));
         self.layers.set(Layer::Joints, true);
     }
 
     fn show_around(&mut self, point: DVec3, reach: f64) {
-        let at = self.viewport.flatten(point);
+        let at = self.pane.viewport.flatten(point);
         let mut bounds = Bounds::EMPTY;
         bounds.add(at - reach);
         bounds.add(at + reach);
-        self.viewport = self.viewport.fitted(&bounds);
+        self.pane.viewport = self.pane.viewport.fitted(&bounds);
     }
 
     fn look_from(&mut self, orientation: Orientation, shown: Shown<'_>) {
         let pivot = middle(shown.document());
-        self.target = pivot;
-        let before = self.viewport.flatten(pivot);
-        self.viewport.orientation = orientation;
-        self.viewport.centre += self.viewport.flatten(pivot) - before;
+        self.pane.target = pivot;
+        let before = self.pane.viewport.flatten(pivot);
+        self.pane.viewport.orientation = orientation;
+        self.pane.viewport.centre += self.pane.viewport.flatten(pivot) - before;
     }
 }

@@ -27,6 +27,8 @@ pub(in crate::editor) mod osculating_circle;
 pub(in crate::editor) mod outline;
 mod outlines;
 pub(in crate::editor) mod overlay;
+mod pane;
+mod panes;
 mod picture_edges;
 mod plot_chain;
 mod plot_marks;
@@ -57,6 +59,7 @@ pub use look::Look;
 pub use named_view::{NamedView, view_name};
 pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};
+pub use panes::{PaneLayout, PaneView};
 pub use plot_scene::{PlotBand, PlotKind, PlotScene};
 pub use scene::{
     ClampedMark, CurveScene, DragReadout, GuideLabel, GuideScene, HoverScene, Legs, LossArrow,

@@ -38,6 +38,22 @@ pub struct Overlay {
     pub atlas: Option<Atlas>,
 }
 
+impl Overlay {
+    /// What other panes show of it, with marks of their own: what the pointer is over is in its pane alone.
+    pub fn elsewhere(&self, marks: Vec<Mark>) -> Self {
+        Self {
+            marks,
+            measures_points: self.measures_points,
+            fitted_end: self.fitted_end,
+            before: self.before.clone(),
+            others_before: self.others_before.clone(),
+            unreached: self.unreached.clone(),
+            proposal: self.proposal.clone(),
+            ..Self::default()
+        }
+    }
+}
+
 /// What the pointer can hover on the canvas.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Hovering {

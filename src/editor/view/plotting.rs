@@ -31,7 +31,7 @@ impl View {
         if let Some((id, kind)) = shown.active().zip(self.plot)
             && let Some(sampled) = self.analyses.sampled(id)
         {
-            if let Some((hovered, u, _)) = self.scene.hovered()
+            if let Some((hovered, u, _)) = self.pane.scene.hovered()
                 && hovered == id
                 && let PlotKind::Levels { plot, normalised } = kind
             {
@@ -145,7 +145,7 @@ impl View {
                 part: source.part,
                 ..PlotScene::default()
             };
-            scene.fill(self.ghost.analysis(before), source.kind);
+            scene.fill(self.pane.ghost.analysis(before), source.kind);
             plots.before = Some(Box::new(scene));
         }
         for beside in &source.others {

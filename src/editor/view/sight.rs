@@ -126,7 +126,7 @@ impl<'a> Sight<'a> {
             degree: curve.map(|curve| curve.polygon.degree()),
             ..Readout::default()
         };
-        if let Some((curve, u, curvature)) = self.view.scene.hovered() {
+        if let Some((curve, u, curvature)) = self.view.pane.scene.hovered() {
             (readout.parameter_name, readout.parameter) = match reference(curve) {
                 Some(reference) => ("t", Some(reference.curve.parameter(u))),
                 None => ("u", Some(u)),
@@ -138,7 +138,7 @@ impl<'a> Sight<'a> {
 
     /// The point of the model that is hovered, or under the pointer.
     fn pointed_at(self) -> Option<DVec3> {
-        match &self.view.scene.hover {
+        match &self.view.pane.scene.hover {
             Some(HoverScene::Vertex { point, .. } | HoverScene::Curve { point, .. }) => {
                 Some(*point)
             }
@@ -146,7 +146,7 @@ impl<'a> Sight<'a> {
                 // In the plane through the point about which the view turns; from above in the plane z = 0.
                 let place = self.viewport().to_model(self.shown.pointer?);
                 let orientation = &self.viewport().orientation;
-                Some(orientation.point_at(place, self.view.target))
+                Some(orientation.point_at(place, self.view.pane.target))
             }
         }
     }
@@ -163,7 +163,7 @@ impl<'a> Sight<'a> {
     }
 
     pub(in crate::editor) fn viewport(self) -> &'a Viewport {
-        &self.view.viewport
+        &self.view.pane.viewport
     }
 
     pub(in crate::editor) fn active(self) -> Option<CurveId> {

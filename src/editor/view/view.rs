@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::analysis::{AnalysisCache, CurveAnalysis, Item, Joints, ReferenceAnalysis};
 use crate::document::{CurveId, Document, PictureSource};
@@ -18,7 +18,8 @@ use crate::editor::view::curvature_display::CurvatureDisplay;
 use crate::editor::view::evolute::EvoluteCrowd;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::layers::Layers;
-use crate::editor::view::outlines::{Outlines, Sketch};
+use crate::editor::view::pane::Pane;
+use crate::editor::view::panes::PaneLayout;
 use crate::editor::view::plot_scene::{MarkSource, PlotKind, PlotScene, PlotSource};
 use crate::editor::view::scene::Scene;
 use crate::editor::view::shown::Shown;
@@ -38,13 +39,19 @@ pub struct View {
     pub(in crate::editor) joints: Joints,
     /// The distance within which ends of curves meet; `None` for the usual one.
     pub joint_tolerance: Option<f64>,
-    pub(in crate::editor) viewport: Viewport,
-    /// The point about which the view turns.
-    pub(in crate::editor) target: DVec3,
+    /// The pane that the hand is in, or was last.
+    pub(in crate::editor) pane: Pane,
+    /// The other panes, row by row.
+    pub(super) other_panes: Vec<Pane>,
+    /// The place of the pane in use among them.
+    pub(super) used: usize,
+    /// The place of the pane that is used while the pointer is not on the canvas.
+    pub(super) chosen_pane: usize,
+    pub(super) layout: PaneLayout,
+    /// The size of the canvas in screen points.
+    pub(super) canvas: DVec2,
     /// Whether the canvas has been given its size and the document fitted into it.
     pub(in crate::editor) placed: bool,
-    /// The view that last showed everything, and the revision of the document then.
-    pub(in crate::editor) fitted: Option<(Viewport, u64)>,
     /// The layers that the user chose, without the changes of a tool.
     pub layers: Layers,
     /// Whether bands of rising and falling curvature are shown only in the plot, and not on the canvas with the
@@ -68,7 +75,6 @@ pub struct View {
     pub(in crate::editor) features: Option<(Item, FeatureReport)>,
     /// The feature whose loss is shown.
     pub(in crate::editor) chosen: Option<FeatureOf>,
-    pub(in crate::editor) scene: Scene,
     /// The kind of the plot; `None` while plots are folded.
     pub plot: Option<PlotKind>,
     /// The curve or reference that each one is compared with in every plot; none for those that are new.
@@ -86,11 +92,6 @@ pub struct View {
     pub harmony: bool,
     /// Whether a panel shows the atlas of an operation: it is proved only then.
     pub shows_atlas: bool,
-    pub(in crate::editor) outlines: Outlines,
-    pub(in crate::editor) ghost: Sketch,
-    pub(in crate::editor) proposed: Sketch,
-    /// The other curves that an operation works on.
-    pub(in crate::editor) other_ghosts: Vec<Sketch>,
 }
 
 /// The rows and places that panels hover, marked on the canvas.
@@ -102,10 +103,10 @@ pub(in crate::editor) struct Hovered {
 }
 
 /// What the canvas shows at which size, and the comb that suits it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(in crate::editor) struct Framing {
-    viewport: Viewport,
-    target: DVec3,
+    /// How each pane sees the model, and the point about which it turns.
+    panes: Vec<(Viewport, DVec3)>,
     comb: CombSettings,
     combed: Option<CurveId>,
 }
@@ -113,16 +114,16 @@ pub(in crate::editor) struct Framing {
 impl Framing {
     /// Whether both show the same part of the model, whatever the comb.
     pub(in crate::editor) fn sees_as(&self, other: &Self) -> bool {
-        (self.viewport, self.target) == (other.viewport, other.target)
+        self.panes == other.panes
     }
 }
 
 impl View {
     /// The present framing.
     pub(in crate::editor) fn framing(&self) -> Framing {
+        let panes = self.panes_in_order();
         Framing {
-            viewport: self.viewport,
-            target: self.target,
+            panes: panes.map(|it| (it.viewport, it.target)).collect(),
             comb: self.comb,
             combed: self.combed,
         }
@@ -130,8 +131,11 @@ impl View {
 
     /// Go back to an earlier framing.
     pub(in crate::editor) fn restore(&mut self, framing: Framing) {
-        self.viewport = framing.viewport;
-        self.target = framing.target;
+        for (place, (viewport, target)) in framing.panes.into_iter().enumerate() {
+            if let Some(pane) = self.pane_mut(place) {
+                (pane.viewport, pane.target) = (viewport, target);
+            }
+        }
         self.comb = framing.comb;
         self.combed = framing.combed;
     }
@@ -178,8 +182,8 @@ impl View {
     /// Update the analyses and the outlines, which hit tests read.
     pub(in crate::editor) fn analyse(&mut self, document: &Document) {
         self.analyses.update(document);
-        let orientation = self.viewport.orientation;
-        self.outlines.update(&self.analyses, orientation);
+        let orientation = self.pane.viewport.orientation;
+        self.pane.outlines.update(&self.analyses, orientation);
     }
 
     /// Update analyses, features, harmony, joints and distances.
@@ -231,7 +235,7 @@ impl View {
 
     /// The viewport.
     pub fn viewport(&self) -> &Viewport {
-        &self.viewport
+        &self.pane.viewport
     }
 
     /// The comb's settings.
@@ -253,7 +257,7 @@ impl View {
 
     /// The contents of the canvas.
     pub fn scene(&self) -> &Scene {
-        &self.scene
+        &self.pane.scene
     }
 
     /// The contents of the plot.

@@ -165,7 +165,7 @@ pub(super) fn ruler(
     figures: Vec<MeasuredFigure>,
     sight: Sight<'_>,
 ) -> [Mark; 2] {
-    let [from, to] = points.map(|point| sight.view.viewport.flatten(point));
+    let [from, to] = points.map(|point| sight.view.pane.viewport.flatten(point));
     [
         Mark::Ruler([from, to]),
         Mark::Measured(0.5 * (from + to), figures),

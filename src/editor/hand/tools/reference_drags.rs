@@ -66,7 +66,7 @@ impl Frame {
     /// The frame of the active reference, if it can be changed and nothing else is selected.
     pub fn of(context: &Context) -> Option<Self> {
         let (id, _) = editable(context).filter(|_| !context.selection.has_several_items())?;
-        let bounds = context.hits.view.outlines.get(id)?.curve.bounds();
+        let bounds = context.hits.view.pane.outlines.get(id)?.curve.bounds();
         if bounds.is_empty() {
             return None;
         }

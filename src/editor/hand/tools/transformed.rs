@@ -139,7 +139,7 @@ impl Transformed {
             }
         }
         for id in whole {
-            if let Some(outlines) = context.hits.view.outlines.get(id) {
+            if let Some(outlines) = context.hits.view.pane.outlines.get(id) {
                 bounds = bounds.united(outlines.curve.bounds());
             }
         }

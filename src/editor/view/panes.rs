@@ -1,0 +1,254 @@
+//! The panes of the canvas: one, two or four views of the model at once.
+
+use std::cmp::Ordering;
+
+use glam::DVec2;
+
+use crate::editor::view::named_view::NamedView;
+use crate::editor::view::orientation::Orientation;
+use crate::editor::view::pane::Pane;
+use crate::editor::view::scene::Scene;
+use crate::editor::view::shown::Shown;
+use crate::editor::view::view::View;
+use crate::editor::view::viewport::Viewport;
+
+/// The gap between panes, in screen points.
+const GAP: f64 = 2.0;
+
+/// How many panes the canvas has, and how they lie.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum PaneLayout {
+    /// One.
+    #[default]
+    One,
+    /// Two side by side: the present view, and another one.
+    Two,
+    /// Four: from above, isometric, from the front and from the right, as drawings show them.
+    Four,
+}
+
+/// One pane as it is painted.
+#[derive(Clone, Copy, Debug)]
+pub struct PaneView<'a> {
+    /// Its upper left corner on the canvas, in screen points.
+    pub corner: DVec2,
+    /// How it sees the model.
+    pub viewport: &'a Viewport,
+    /// What it shows.
+    pub scene: &'a Scene,
+    /// Whether the hand is in it, or was last.
+    pub is_used: bool,
+}
+
+impl PaneLayout {
+    /// Every layout, in the order in which they are offered.
+    pub const ALL: [Self; 3] = [Self::One, Self::Two, Self::Four];
+
+    /// What menus call it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::One => "One view",
+            Self::Two => "Two views",
+            Self::Four => "Four views",
+        }
+    }
+
+    /// One sentence that says what it shows.
+    pub fn tooltip(self) -> &'static str {
+        match self {
+            Self::One => "See the model from one side",
+            Self::Two => "See the model from two sides at once; each pane pans and zooms alone",
+            Self::Four => {
+                "See top, front, right and isometric at once; each pane pans and zooms alone"
+            }
+        }
+    }
+
+    /// The columns and the rows of panes.
+    fn grid(self) -> [usize; 2] {
+        match self {
+            Self::One => [1, 1],
+            Self::Two => [2, 1],
+            Self::Four => [2, 2],
+        }
+    }
+
+    /// The upper left corners and the sizes of the panes on a canvas of a size, row by row.
+    fn boxes(self, canvas: DVec2) -> Vec<[DVec2; 2]> {
+        let [columns, rows] = self.grid();
+        let gaps = DVec2::new(columns as f64 - 1.0, rows as f64 - 1.0) * GAP;
+        let size = (canvas - gaps) / DVec2::new(columns as f64, rows as f64);
+        let size = size.max(DVec2::ZERO);
+        let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        let corner =
+            |(column, row): (usize, usize)| DVec2::new(column as f64, row as f64) * (size + GAP);
+        places.map(|place| [corner(place), size]).collect()
+    }
+
+    /// From where its panes see the model, where one pane sees it from `present`.
+    fn orientations(self, present: Orientation) -> Vec<Orientation> {
+        let isometric = NamedView::Isometric.orientation();
+        match self {
+            Self::One => vec![present],
+            Self::Two if present == isometric => vec![NamedView::Xy.orientation(), present],
+            Self::Two => vec![present, isometric],
+            Self::Four => {
+                use NamedView::{Isometric, Xy, Xz, Yz};
+                [Xy, Isometric, Xz, Yz].map(NamedView::orientation).into()
+            }
+        }
+    }
+}
+
+impl View {
+    /// How the panes of the canvas lie.
+    pub fn pane_layout(&self) -> PaneLayout {
+        self.layout
+    }
+
+    /// The panes, row by row.
+    pub fn panes(&self) -> impl Iterator<Item = PaneView<'_>> {
+        let boxes = self.layout.boxes(self.canvas).into_iter();
+        let panes = boxes.zip(self.panes_in_order()).enumerate();
+        panes.map(|(place, ([corner, _], pane))| PaneView {
+            corner,
+            viewport: &pane.viewport,
+            scene: &pane.scene,
+            is_used: place == self.used,
+        })
+    }
+
+    pub(super) fn panes_in_order(&self) -> impl Iterator<Item = &Pane> {
+        let (before, after) = self.other_panes.split_at(self.used);
+        before.iter().chain([&self.pane]).chain(after)
+    }
+
+    pub(super) fn pane_mut(&mut self, place: usize) -> Option<&mut Pane> {
+        match place.cmp(&self.used) {
+            Ordering::Less => self.other_panes.get_mut(place),
+            Ordering::Equal => Some(&mut self.pane),
+            Ordering::Greater => self.other_panes.get_mut(place - 1),
+        }
+    }
+
+    /// The upper left corner of the pane in use, in screen points of the canvas.
+    pub(in crate::editor) fn pane_corner(&self) -> DVec2 {
+        let boxes = self.layout.boxes(self.canvas);
+        boxes.get(self.used).map_or(DVec2::ZERO, |it| it[0])
+    }
+
+    /// Use the pane at a place on the canvas, the nearest one in a gap. With `stays` it is the one that counts while the
+    /// pointer is elsewhere.
+    pub(in crate::editor) fn use_pane_at(&mut self, at: DVec2, stays: bool) {
+        let boxes = self.layout.boxes(self.canvas).into_iter();
+        let away = |[corner, size]: [DVec2; 2]| at.distance(at.clamp(corner, corner + size));
+        let distances = boxes.map(away).enumerate();
+        if let Some((place, _)) = distances.min_by(|a, b| a.1.total_cmp(&b.1)) {
+            self.use_pane(place);
+        }
+        if stays {
+            self.chosen_pane = self.used;
+        }
+    }
+
+    /// Use the pane that was last pressed or zoomed: the pointer has left the canvas.
+    pub(in crate::editor) fn use_chosen_pane(&mut self) {
+        self.use_pane(self.chosen_pane);
+    }
+
+    fn use_pane(&mut self, place: usize) {
+        if place != self.used && place <= self.other_panes.len() {
+            let before = std::mem::take(&mut self.pane);
+            self.other_panes.insert(self.used, before);
+            self.pane = self.other_panes.remove(place);
+            self.used = place;
+        }
+    }
+
+    /// Do something with each pane in turn as if it were in use, with the one in use last.
+    pub(in crate::editor) fn each_pane(&mut self, mut change: impl FnMut(&mut Self)) {
+        self.each_other_pane(&mut change);
+        change(self);
+    }
+
+    /// Do something with each pane but the one in use, as if it were in use.
+    pub(in crate::editor) fn each_other_pane(&mut self, mut change: impl FnMut(&mut Self)) {
+        let used = self.used;
+        for place in (0..=self.other_panes.len()).filter(|place| *place != used) {
+            self.use_pane(place);
+            change(self);
+        }
+        self.use_pane(used);
+    }
+
+    /// Lay the panes out anew. A view that the new layout has too stays; the others show everything.
+    pub(in crate::editor) fn lay_out(&mut self, layout: PaneLayout, shown: Shown<'_>) {
+        if layout == self.layout {
+            return;
+        }
+        let mut present = Some(std::mem::take(&mut self.pane));
+        let before = present.as_ref().map(|it| (it.viewport, it.target));
+        let (viewport, target) = before.unwrap_or_default();
+        let orientations = layout.orientations(viewport.orientation);
+        let place = orientations
+            .iter()
+            .position(|it| *it == viewport.orientation);
+        let panes = orientations
+            .into_iter()
+            .enumerate()
+            .map(|(at, orientation)| {
+                let kept = present.take_if(|_| Some(at) == place);
+                kept.unwrap_or_else(|| {
+                    let viewport = Viewport {
+                        orientation,
+                        ..viewport
+                    };
+                    // As if it had shown everything: it does once it has its size.
+                    let fitted = Some((viewport, shown.workspace.revision()));
+                    Pane {
+                        viewport,
+                        target,
+                        fitted,
+                        ..Pane::default()
+                    }
+                })
+            });
+        self.other_panes = panes.collect();
+        self.used = place.unwrap_or(0);
+        self.chosen_pane = self.used;
+        self.pane = self.other_panes.remove(self.used);
+        self.layout = layout;
+        self.size_panes(shown);
+    }
+
+    /// Give each pane its part of the canvas.
+    pub(super) fn size_panes(&mut self, shown: Shown<'_>) {
+        let boxes = self.layout.boxes(self.canvas);
+        self.each_pane(|view| {
+            if let Some([_, size]) = boxes.get(view.used) {
+                view.set_pane_size(*size, shown);
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panes_fill_the_canvas_but_for_the_gaps() {
+        let canvas = DVec2::new(1002.0, 702.0);
+        for (layout, size) in [
+            (PaneLayout::One, canvas),
+            (PaneLayout::Two, DVec2::new(500.0, 702.0)),
+            (PaneLayout::Four, DVec2::new(500.0, 350.0)),
+        ] {
+            let boxes = layout.boxes(canvas);
+            assert!(boxes.iter().all(|it| it[1] == size), "{boxes:?}");
+            let [corner, size] = boxes[boxes.len() - 1];
+            assert_eq!(corner + size, canvas);
+            assert_eq!(boxes.len(), layout.orientations(Orientation::XY).len());
+        }
+    }
+}
