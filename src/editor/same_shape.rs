@@ -7,7 +7,7 @@ use crate::document::{Curve, CurveId, Edit, EditError, quoted};
 use crate::editor::polygon_edits::{deletion, replacement};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{FloatPolygon, PolygonError, rounded_up};
-use crate::operations::{changed_features, feature_change, feature_counts};
+use crate::operations::{changed_features, feature_counts};
 
 /// The switch that inserting and deleting vertices follow.
 pub const KEEP_SHAPE: &str = "Keep shape";
@@ -61,6 +61,11 @@ impl SameShape {
         })
     }
 
+    /// Whether the curve has more features of a kind than before.
+    pub fn adds(&self) -> bool {
+        adds(self.features)
+    }
+
     /// Say how far the curve moves, and which features change.
     pub fn told(&self, unit: Option<LengthUnit>) -> String {
         let moved = match self.deviation {
@@ -77,7 +82,18 @@ impl SameShape {
     }
 }
 
-/// The edit that deletes vertices of a curve, by their numbers in rising order, and what it does to the curve, whose
+/// A deletion of vertices of a curve.
+#[derive(Debug)]
+pub struct Removal {
+    /// The edit.
+    pub edit: Edit,
+    /// What it does to the curve, in words.
+    pub told: Option<String>,
+    /// Whether it adds curvature extrema or inflections.
+    pub adds: bool,
+}
+
+/// Find the edit that deletes vertices of a curve, by their numbers in rising order, and what it does to the curve, whose
 /// lengths have a unit: keep its shape, or leave the other vertices in their places.
 ///
 /// # Errors
@@ -87,21 +103,31 @@ pub fn removal(
     curve: &Curve,
     indices: &[usize],
     (vertices_stay, unit): (bool, Option<LengthUnit>),
-) -> Result<(Edit, Option<String>), String> {
+) -> Result<Removal, String> {
     if vertices_stay {
         let edit = deletion(id, curve, indices).map_err(advised)?;
-        return Ok(match &edit {
-            Edit::Renumber { polygon, .. } => {
-                let change = feature_change(&curve.polygon, polygon);
-                let told = change.map(|change| format!("Features change: {change}"));
-                (edit, told)
-            }
-            _ => (edit, None),
+        let features = match &edit {
+            Edit::Renumber { polygon, .. } => [&curve.polygon, polygon].map(feature_counts),
+            _ => Default::default(),
+        };
+        let change = changed_features(features);
+        return Ok(Removal {
+            edit,
+            told: change.map(|change| format!("Features change: {change}")),
+            adds: adds(features),
         });
     }
     let same = SameShape::of(curve, -(indices.len() as isize))?;
-    let told = same.told(unit);
-    Ok((replacement(id, curve, same.polygon), Some(told)))
+    Ok(Removal {
+        told: Some(same.told(unit)),
+        adds: same.adds(),
+        edit: replacement(id, curve, same.polygon),
+    })
+}
+
+/// Whether there are more features of a kind than before.
+fn adds([before, now]: [[usize; 2]; 2]) -> bool {
+    before.iter().zip(&now).any(|(before, now)| now > before)
 }
 
 /// Say why vertices cannot come or go, and the way out.

@@ -1,11 +1,11 @@
 //! Removing vertices and curves: never one by a command that is meant for the other.
 
-use crate::document::{Document, Edit, quoted};
+use crate::document::{Document, quoted};
 use crate::editor::Editor;
 use crate::editor::commands::command::Command;
 use crate::editor::commands::items::{self, Change};
 use crate::editor::reply::{Message, Note, Refusal, Reply};
-use crate::editor::same_shape::removal;
+use crate::editor::same_shape::{Removal, removal};
 use crate::editor::selection::Selection;
 use crate::geometry::counted;
 
@@ -17,12 +17,18 @@ impl Editor {
         done: &str,
         vertices_stay: bool,
     ) -> Reply {
-        let (edits, told) = edits(&self.hand.selection, self.document(), vertices_stay)?;
+        let removals = removals(&self.hand.selection, self.document(), vertices_stay)?;
         let count = counted(self.hand.selection.vertices().len(), "vertex", "vertices");
-        self.apply(&format!("{verb} {count}"), edits)?;
+        let adds = removals.iter().any(|it| it.adds);
+        let mut told = vec![format!("{count} {done}")];
+        told.extend(removals.iter().filter_map(|it| it.told.clone()));
+        let edits = removals.into_iter().map(|it| it.edit);
+        self.apply(&format!("{verb} {count}"), edits.collect())?;
         self.hand.selection.clear();
-        let told = [vec![format!("{count} {done}")], told].concat();
-        Ok(Note::done(told.join(". ")))
+        Ok(Note {
+            warns: adds,
+            ..Note::done(told.join(". "))
+        })
     }
 }
 
@@ -44,12 +50,12 @@ pub(super) fn question(
     Ok((of_curves && !is_answered).then_some(asked))
 }
 
-/// The edits that remove the selected vertices, and what they do to the curves. A curve is never removed that way.
-fn edits(
+/// The deletions of the selected vertices, one a curve. A curve is never removed that way.
+fn removals(
     selection: &Selection,
     document: &Document,
     vertices_stay: bool,
-) -> Result<(Vec<Edit>, Vec<String>), String> {
+) -> Result<Vec<Removal>, String> {
     if selection.is_empty() {
         let active = selection.active().and_then(|id| document.name(id));
         let Some(name) = active else {
@@ -61,7 +67,7 @@ fn edits(
             Command::DeleteCurve.label()
         ));
     }
-    let (mut edits, mut told) = (Vec::new(), Vec::new());
+    let mut removals = Vec::new();
     for (id, curve) in document.curves() {
         let indices: Vec<usize> = selection.of_curve(id).collect();
         if indices.is_empty() {
@@ -77,9 +83,8 @@ fn edits(
                 Command::DeleteCurve.label()
             ));
         }
-        let (edit, curve_told) = removal(id, curve, &indices, (vertices_stay, document.unit()))?;
-        edits.push(edit);
-        told.extend(curve_told);
+        let way = (vertices_stay, document.unit());
+        removals.push(removal(id, curve, &indices, way)?);
     }
-    Ok((edits, told))
+    Ok(removals)
 }

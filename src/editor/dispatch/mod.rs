@@ -330,6 +330,11 @@ impl Editor {
                         Step::Refused => self.message.take(),
                     };
                 }
+                Effect::Warn(text) => {
+                    if !matches!(step, Step::Refused) {
+                        self.message = Message::of(&Ok(Note::done(text).warning()));
+                    }
+                }
                 Effect::Finish => {
                     self.interrupt();
                     self.hand.use_tool(ToolKind::Select);

@@ -7,7 +7,7 @@ use super::tool::{Context, Effect, Tool, pointer_label};
 use crate::document::{Curve, CurveId, quoted};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
-use crate::editor::same_shape::{LastSameShape, removal};
+use crate::editor::same_shape::{LastSameShape, Removal, removal};
 use crate::editor::view::scene::Mark;
 
 /// A vertex of a curve, and what deleting it would do.
@@ -72,7 +72,7 @@ impl DeleteTool {
             return told.clone();
         }
         let told = match removal(id, curve, &[index], (true, None)) {
-            Ok((_, told)) => told,
+            Ok(removal) => removal.told,
             Err(refused) => Some(refused),
         };
         *last = Some((curve.clone(), index, told.clone()));
@@ -87,15 +87,21 @@ impl DeleteTool {
         let way = (context.settings.vertices_stay, context.document.unit());
         let edit = removal(curve, found, &[index], way);
         match edit {
-            Ok((edit, told)) => vec![
-                Effect::Select(Vec::new()),
-                Effect::Activate(curve),
-                Effect::Apply("Delete vertex".into(), vec![edit]),
-                Effect::Say(match told {
+            Ok(Removal { edit, told, adds }) => {
+                let told = match told {
                     Some(told) => format!("Vertex {index} of {name} deleted. {told}"),
                     None => format!("Vertex {index} of {name} deleted"),
-                }),
-            ],
+                };
+                vec![
+                    Effect::Select(Vec::new()),
+                    Effect::Activate(curve),
+                    Effect::Apply("Delete vertex".into(), vec![edit]),
+                    match adds {
+                        true => Effect::Warn(told),
+                        false => Effect::Say(told),
+                    },
+                ]
+            }
             Err(refused) => vec![Effect::Say(refused)],
         }
     }

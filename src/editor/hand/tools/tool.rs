@@ -99,6 +99,8 @@ pub enum Effect {
     Set(Box<ToolSettings>),
     /// Tell the user something.
     Say(String),
+    /// Tell the user of something done that may not be wanted.
+    Warn(String),
     /// Take the select tool.
     Finish,
 }

@@ -397,7 +397,8 @@ impl Tool for NewVertexTool {
                     Some(same) => Some(same.told(unit)),
                     None => adding.changes(vertex, unit),
                 };
-                effects.extend(told.map(Effect::Say));
+                let warns = same.is_some_and(|same| same.adds());
+                effects.extend(told.map(if warns { Effect::Warn } else { Effect::Say }));
             }
             _ => {
                 let pressed = adding.same.as_ref().map(|_| context.model(place));
