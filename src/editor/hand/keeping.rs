@@ -139,7 +139,7 @@ impl Keeping {
                 let curve = document.curve(curve).map(|curve| quoted(&curve.name));
                 format!("it would add to {}: {added}", curve.unwrap_or_default())
             }
-            Obstacle::Unprovable(reason) => reason,
+            Obstacle::Misplaced(_, reason) | Obstacle::Unprovable(reason) => reason,
         })
     }
 
@@ -164,7 +164,9 @@ impl Keeping {
     fn go(&mut self, wanted: &Places, drag: &Drag) -> Result<(), Obstacle> {
         let begin = Instant::now();
         let (curve, added) = match self.go_all_the_way(wanted, drag) {
-            Err(Obstacle::Added(curve, added)) => (curve, added),
+            Err(Obstacle::Added(curve, reason) | Obstacle::Misplaced(curve, reason)) => {
+                (curve, reason)
+            }
             other => return other,
         };
         let from = self.good.clone();

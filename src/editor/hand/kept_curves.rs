@@ -42,8 +42,10 @@ struct Kept {
 /// Why features are not kept.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Obstacle {
-    /// Some are added to this curve, or a vertex of it cannot be there.
+    /// Some are added to this curve.
     Added(CurveId, String),
+    /// A vertex of this curve cannot be there: nothing is known of it then.
+    Misplaced(CurveId, String),
     /// Nothing can be proved of a curve, in words.
     Unprovable(String),
 }
@@ -78,7 +80,7 @@ impl KeptCurves {
             match kept.prover.rise(&places) {
                 Ok(rise) if rise.is_none() => {}
                 Ok(rise) => return Err(Obstacle::Added(id, rise.text())),
-                Err(error) => return Err(Obstacle::Added(id, error.to_string())),
+                Err(error) => return Err(Obstacle::Misplaced(id, error.to_string())),
             }
         }
         Ok(())
