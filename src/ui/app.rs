@@ -402,6 +402,10 @@ impl App {
 
     fn perform(&mut self, context: &Context, action: Action) {
         if !action.is_enabled(&self.editor) {
+            // A key asks for what menus do not offer: the editor says why not.
+            if let Action::Command(command) = action {
+                told(self.editor.execute(command));
+            }
             return;
         }
         if action.covers_canvas() && self.editor.hand().is_dragging() {

@@ -38,6 +38,50 @@ fn copy_and_paste_add_a_curve_aside_as_one_step() {
 }
 
 #[test]
+fn a_command_that_cannot_be_given_says_what_it_needs() {
+    let mut script = Script::example("arc");
+    for (command, told) in [
+        (
+            Command::ToggleVerticesLocked,
+            "Lock vertices: select vertices first",
+        ),
+        (Command::Undo, "Undo: nothing to undo"),
+        (Command::Redo, "Redo: nothing to redo"),
+        (
+            Command::GoToFeature,
+            "Go to feature: choose a feature in its list first",
+        ),
+    ] {
+        script.command(command);
+        assert_eq!(script.message(), told);
+    }
+    // Nothing is told while something goes on.
+    script.key(Key::Escape);
+    let at = script.at_vertex(1);
+    script.press(at);
+    script.move_to(at + 30.0);
+    script.command(Command::Redo);
+    assert!(
+        script
+            .editor
+            .message()
+            .is_none_or(|it| !it.text.contains("redo"))
+    );
+    script.release(at + 30.0);
+    script.command(Command::DeleteCurve);
+    for command in Command::all() {
+        if let Some(need) = command.need(&script.editor) {
+            let label = command.label();
+            assert!(need.starts_with(label.trim_end_matches('…')), "{need}");
+            assert!(need.len() < 100, "{need}");
+            script.command(command);
+            assert_eq!(script.message(), need);
+        }
+    }
+    assert!(script.editor.document().is_empty());
+}
+
+#[test]
 fn every_command_can_be_given_at_any_time() {
     for example in ["arc", "periodic"] {
         for command in Command::all() {

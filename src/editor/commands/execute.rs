@@ -31,7 +31,10 @@ impl Editor {
     /// [`Refusal`] if it cannot be done; nothing is changed then.
     pub fn execute(&mut self, command: Command) -> Reply {
         if !command.is_enabled(self) {
-            return Ok(Note::silent());
+            return match command.need(self) {
+                Some(need) => self.tell(Ok(Note::told(need))),
+                None => Ok(Note::silent()),
+            };
         }
         let shown = self.message.take();
         let reply = match command {

@@ -51,6 +51,35 @@ impl Command {
         }
     }
 
+    /// Say what a command that cannot be given now needs, where the user can do something about it.
+    pub fn need(self, editor: &Editor) -> Option<String> {
+        let is_busy = editor.hand.is_holding() || editor.workspace.preview().is_some();
+        if is_busy || self.is_enabled(editor) {
+            return None;
+        }
+        let need = match self {
+            Command::Undo => "nothing to undo".to_owned(),
+            Command::Redo => "nothing to redo".to_owned(),
+            Command::Delete
+            | Command::Duplicate
+            | Command::DeleteCurve
+            | Command::ToggleVisible
+            | Command::ToggleLocked
+            | Command::Isolate => "select a curve first".to_owned(),
+            Command::ToggleVerticesLocked => "select vertices first".to_owned(),
+            Command::Arrange(arrangement) => {
+                format!("select {} curves or vertices first", arrangement.least())
+            }
+            Command::TogglePeriodic | Command::ToggleSymmetric => {
+                "select a curve that is not locked".to_owned()
+            }
+            Command::Operation(operation) => editor.input_of(operation).err()?.to_string(),
+            Command::GoToFeature => "choose a feature in its list first".to_owned(),
+            _ => return None,
+        };
+        Some(format!("{}: {need}", self.label().trim_end_matches('…')))
+    }
+
     /// Whether the switch is on; `None` for a command that is no switch.
     pub fn is_checked(self, editor: &Editor) -> Option<bool> {
         let (document, items) = (editor.document(), editor.hand.selection.items());
