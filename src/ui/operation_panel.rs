@@ -14,7 +14,7 @@ use super::operation_report::{ReportView, failure, summary_ui, three_lines_ui, w
 use super::theme::{STEP, Tokens};
 use super::widgets::{self, IconButton};
 use crate::document::CurveId;
-use crate::editor::{Editor, OperationInProgress, told};
+use crate::editor::{Editor, OperationInProgress, Run, told};
 use crate::operations::Atlas;
 
 /// The heights of the places for the summary, the error and the buttons, one below the other.
@@ -215,7 +215,9 @@ fn heading_ui(ui: &mut Ui, in_progress: &OperationInProgress) -> Option<PanelAct
             widgets::caption(ui, &format!("{able} of {} selected", 1 + beside.len()));
         }
         if in_progress.is_applied() {
-            widgets::caption(ui, "applied");
+            let run = in_progress.run().and_then(|run| run.as_ref().ok());
+            let is_changed = !run.is_some_and(Run::changes_nothing);
+            widgets::caption(ui, if is_changed { "applied" } else { "unchanged" });
             widgets::at_right(ui, |ui| {
                 let close = IconButton::new(Icon::X, "Close operation");
                 left = close.size(5.0 * STEP).show(ui).clicked();

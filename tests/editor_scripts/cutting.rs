@@ -107,6 +107,18 @@ fn ends_of_the_part_are_dragged_along_the_curve() {
 }
 
 #[test]
+fn a_trim_that_cuts_nothing_says_so_and_makes_no_step() {
+    let (mut script, _) = curves();
+    let (before, steps) = (script.polygon(), script.steps());
+    script.try_out("trim").expect("an operation");
+    script.key(Key::Enter);
+    let told = script.message();
+    assert!(told.starts_with("Nothing is changed. Trim curve"), "{told}");
+    assert!(!script.editor.message().is_some_and(|it| it.offers_undo));
+    assert_eq!((script.polygon(), script.steps()), (before, steps));
+}
+
+#[test]
 fn presses_beside_the_handles_stay_in_the_operation() {
     let (mut script, ids) = curves();
     for name in ["trim", "split", "extend", "between"] {

@@ -371,6 +371,11 @@ impl Run {
         self.outcomes().any(|(_, outcome)| outcome.renumbered)
     }
 
+    /// Whether the document stays as it is.
+    pub fn changes_nothing(&self) -> bool {
+        self.outcomes().all(|(_, outcome)| outcome.edits.is_empty())
+    }
+
     /// Whether the user may not want the result of any item.
     pub(super) fn warns(&self) -> bool {
         let mut others = self.others.iter().filter_map(|it| it.result.as_ref().ok());

@@ -586,7 +586,10 @@ impl Operating<'_> {
             Some(Ok(run)) if run.succeeds() => Ok(Note {
                 warns: run.warns(),
                 offers_undo: self.has_made_step(),
-                ..Note::told(run.told(self.workspace.settled()))
+                ..Note::told(match run.changes_nothing() {
+                    true => format!("Nothing is changed. {}", run.told(self.workspace.settled())),
+                    false => run.told(self.workspace.settled()),
+                })
             }),
             Some(Ok(run)) => Err(Refusal(run.report.summary())),
             Some(Err(error)) => Err(Refusal(error.to_string())),
