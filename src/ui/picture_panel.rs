@@ -117,8 +117,7 @@ fn plane_ui(ui: &mut Ui, editor: &mut Editor, placement: &Placement) {
 /// Fields for the true distance and direction of two points that were measured on the picture.
 fn true_size_ui(ui: &mut Ui, editor: &mut Editor, (id, placement): (CurveId, &Placement)) {
     let Some([from, to]) = editor.hand().measured_on(id, editor.document()) else {
-        let text =
-            "To scale it, measure two points (M): fields for their true distance appear here.";
+        let text = "To scale and place it, measure two points (M): fields for them appear here.";
         widgets::note(ui, text);
         return;
     };
@@ -144,6 +143,18 @@ fn true_size_ui(ui: &mut Ui, editor: &mut Editor, (id, placement): (CurveId, &Pl
             told(PictureChange::TrueDirection(angle.to_radians()).apply(editor));
         }
     });
+    let axes = picture_plane(placement).and_then(|plane| plane.orientation().axes());
+    for axis in axes.map_or(vec![0, 1, 2], Vec::from) {
+        let (name, at) = (["x", "y", "z"][axis], from[axis]);
+        widgets::form_row(ui, &format!("First point {name}"), |ui| {
+            let label = format!("first point {name}");
+            let field = length_field(&label, at);
+            let field = field.help("Move the picture so that the first measured point lies here");
+            if let Some(to) = field.typed(ui) {
+                told(PictureChange::FirstPoint { axis, to }.apply(editor));
+            }
+        });
+    }
     widgets::note(
         ui,
         "A perspective is not corrected: measure in the plane that you trace.",

@@ -188,9 +188,19 @@ fn two_measured_points_give_the_size_and_the_direction() {
         let angle = (second - first).angle_between(horizontal);
         assert!((angle - PI / 6.0).abs() < 1e-9, "{plane:?}: {angle}");
         assert!(share(first).x > 0.0 && share(second).x < 1.0);
+        let steps = script.steps();
+        // The first point comes to where it belongs, the second goes along.
+        for (axis, to) in [(0, 0.0), (1, -40.0), (2, 7.5)] {
+            told(PictureChange::FirstPoint { axis, to }.apply(&mut script.editor));
+        }
+        let [placed, along] = measured(&script, id);
+        assert!(placed.distance(DVec3::new(0.0, -40.0, 7.5)) < 500.0 * ROUNDING);
+        assert!((along - placed).distance(second - first) < 500.0 * ROUNDING);
         // The points are those of the picture after undo, too.
-        script.command(Command::Undo);
-        script.command(Command::Undo);
+        let moves = script.steps() - steps;
+        for _ in 0..moves + 2 {
+            script.command(Command::Undo);
+        }
         let [first, second] = measured(&script, id);
         let off = first.distance(from).max(second.distance(to));
         assert!(off < 500.0 * ROUNDING, "{plane:?}: {off}");

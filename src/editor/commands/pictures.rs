@@ -30,6 +30,13 @@ pub enum PictureChange {
     TrueDistance(f64),
     /// Turn it about the first of the two measured points so that the second lies in this direction, in radians.
     TrueDirection(f64),
+    /// Move it so that the first of the two measured points has this coordinate.
+    FirstPoint {
+        /// The axis of the coordinate: 0 x, 1 y, 2 z.
+        axis: usize,
+        /// The coordinate.
+        to: f64,
+    },
     /// Read it from another file.
     Relink(PathBuf),
     /// Keep its bytes in the project.
@@ -86,6 +93,7 @@ impl PictureChange {
             Self::Opacity(_) => "Change opacity",
             Self::Width(_) | Self::Height(_) | Self::TrueDistance(_) => "Scale picture",
             Self::Plane(_) | Self::TrueDirection(_) => "Turn picture",
+            Self::FirstPoint { .. } => "Move picture",
             Self::Relink(_) => "Relink picture",
             Self::Embed => "Embed picture",
         }
@@ -146,6 +154,18 @@ impl PictureChange {
                 let [from, to] = measured(editor, id)?;
                 let turn = turn_to(now.rotation(), [from, to], *angle);
                 now.rotated_about(from, turn)
+            }
+            Self::FirstPoint { axis, to } => {
+                let [from, _] = measured(editor, id)?;
+                let mut moved = from;
+                if let Some(coordinate) = moved.as_mut().get_mut(*axis) {
+                    *coordinate = *to;
+                }
+                Placement::new(
+                    now.rotation(),
+                    now.scale(),
+                    now.translation() + (moved - from),
+                )
             }
             _ => Ok(now),
         };
