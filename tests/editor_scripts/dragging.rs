@@ -93,7 +93,11 @@ fn a_drag_names_what_it_snaps_to() {
         .clone();
     let end = polygon.end_jet(batten::geometry::End::Start).point;
     let crossing = DVec3::new(10.0, -4.0, 0.0);
+    let middle = 0.5 * (polygon.vertex(2) + polygon.vertex(3));
+    let own = script.polygon();
+    let own = 0.5 * (own.vertex(2) + own.vertex(3));
     let targets = [
+        (seen(&script, middle), "Middle of vertices 2 and 3"),
         (script.at_vertex_of(other, 2), "Vertex 2"),
         (seen(&script, end), "Start"),
         (seen(&script, crossing), "Grid"),
@@ -112,6 +116,10 @@ fn a_drag_names_what_it_snaps_to() {
             "{name}"
         );
     }
+    // What is dragged along does not attract.
+    script.move_to(seen(&script, own) + near);
+    let told = readout(&mut script).expect("a readout").remarks;
+    assert!(told.iter().all(|it| !it.starts_with("Middle")), "{told:?}");
     script.key(Key::Escape);
 }
 

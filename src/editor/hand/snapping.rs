@@ -15,6 +15,9 @@ use crate::geometry::End;
 /// Screen points within which the grid attracts: less than vertices do.
 const GRID_REACH: f64 = 5.0;
 
+/// The middle of a leg attracts where the leg is longer than this, in screen points: else its vertices are near.
+const LONG_LEG: f64 = 6.0 * REACH;
+
 /// A place at a smaller angle from a line, in radians, lies on it.
 const ON_LINE: f64 = 1e-12;
 
@@ -80,8 +83,8 @@ impl Snap {
     }
 }
 
-/// Find what a dragged place of the view plane snaps to, or `None` if nothing is near: vertices, end
-/// points, targets, the points of lists, and the origin.
+/// Find what a dragged place of the view plane snaps to, or `None` if nothing is near: vertices, the middles of long
+/// legs, end points, targets, the points of lists, and the origin.
 ///
 /// Vertices that are carried along do not attract.
 pub fn snap_to_point(
@@ -105,6 +108,21 @@ pub fn snap_to_point(
             let near = viewport.flatten(*vertex).distance(place) <= reach;
             if near && !carried.vertices.contains(&(id, index)) {
                 consider(*vertex, &|| format!("Vertex {index}"));
+            }
+        }
+        let count = polygon.vertices().len();
+        for from in 0..count - usize::from(!polygon.is_periodic()) {
+            let ends = [from, (from + 1) % count];
+            let [start, end] = ends.map(|index| polygon.vertex(index));
+            let middle = 0.5 * (start + end);
+            let near = viewport.flatten(middle).distance(place) <= reach;
+            let is_carried = ends.iter().any(|it| carried.vertices.contains(&(id, *it)));
+            if near && !is_carried {
+                let [start, end] = [start, end].map(|it| viewport.flatten(it));
+                if start.distance(end) >= LONG_LEG * viewport.pixel() {
+                    let [from, to] = ends;
+                    consider(middle, &|| format!("Middle of vertices {from} and {to}"));
+                }
             }
         }
         for end in End::BOTH {
