@@ -132,8 +132,10 @@ impl Brush<'_> {
         let tokens = self.tokens;
         let evolute = fade(tokens.evolute).gamma_multiply(EVOLUTE_STRENGTH);
         self.evolute(&curve.evolute, evolute);
-        self.hairs(&curve.teeth, fade(tokens.comb_teeth));
-        self.chain(&curve.comb, Stroke::new(1.0, fade(tokens.comb)));
+        // Combs of several curves are compared: they fade as the curves do.
+        let comb = |colour: Color32| colour.gamma_multiply(own_strength(curve));
+        self.hairs(&curve.teeth, comb(tokens.comb_teeth));
+        self.chain(&curve.comb, Stroke::new(1.0, comb(tokens.comb)));
         self.legs(&curve.clamped, true, Stroke::new(1.0, fade(tokens.clamped)));
         let float = if curve.active { 1.25 } else { 1.0 };
         self.legs(&curve.float, false, Stroke::new(float, fade(tokens.float)));
@@ -179,13 +181,7 @@ impl Brush<'_> {
         if curve.is_reference {
             return self.reference(curve, own);
         }
-        // What tells curves apart fades less than what belongs to them.
-        let strength = match (curve.active || curve.selected, curve.locked) {
-            (true, false) => 1.0,
-            (true, true) | (false, false) => 0.75,
-            (false, true) => 0.5,
-        };
-        let colour = own.gamma_multiply(strength);
+        let colour = own.gamma_multiply(own_strength(curve));
         let width = if curve.active { 2.0 } else { 1.5 };
         let stroke = Stroke::new(width, colour);
         match curve.unreached {
@@ -546,6 +542,15 @@ fn drag_text(readout: &DragReadout, pixel: f64) -> String {
 /// Whether a vertex is more than a disc of its polygon.
 fn is_marked(vertex: &VertexMark) -> bool {
     vertex.selected || vertex.locked
+}
+
+/// The strength of what tells a curve from others, which fades less than what belongs to it.
+fn own_strength(curve: &CurveScene) -> f32 {
+    match (curve.active || curve.selected, curve.locked) {
+        (true, false) => 1.0,
+        (true, true) | (false, false) => 0.75,
+        (false, true) => 0.5,
+    }
 }
 
 /// How a curve steps back: inactive ones most, locked ones too.
