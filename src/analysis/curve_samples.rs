@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
+
 use super::leaps;
 use super::revision::Revision;
 use super::sample::{PieceSampler, Sample};
@@ -47,6 +49,8 @@ pub struct Block {
     pub longest_step: f64,
     /// The smallest and largest sampled curvature.
     pub curvature: Option<Span>,
+    /// Opposite corners of the box around the samples.
+    corners: [DVec3; 2],
     /// The arc length from the block's start to each piece's.
     starts: [f64; BLOCK],
 }
@@ -68,6 +72,7 @@ impl CurveSamples {
             length: 0.0,
             longest_step: 0.0,
             curvature: None,
+            corners: corners([]),
             starts: [0.0; BLOCK],
         };
         let mut samples = Self {
@@ -176,6 +181,12 @@ impl CurveSamples {
         self.samples.iter().all(|sample| !sample.leaps)
     }
 
+    /// The longest side of the box around the curve, by its samples.
+    pub fn extent(&self) -> f64 {
+        let [low, high] = corners(self.blocks.iter().flat_map(|block| block.corners));
+        (high - low).max_element()
+    }
+
     /// Measure the arc length, without leaps and the far ways to and from them: to plotting accuracy, not the
     /// exact figure.
     pub fn length(&self) -> f64 {
@@ -234,11 +245,13 @@ impl CurveSamples {
             *start = length;
             length += self.piece_length(piece);
         }
+        let points = samples.iter().map(|sample| sample.point);
         Block {
             revision,
             length,
             longest_step: longest.sqrt(),
             curvature: Span::of(samples.iter().map(|sample| sample.curvature)),
+            corners: corners(points.filter(|point| point.is_finite())),
             starts,
         }
     }
@@ -268,4 +281,11 @@ impl SampledCurve<'_> {
         let before: f64 = before.iter().map(|block| block.length).sum();
         before + self.samples.length_in_block(piece, t)
     }
+}
+
+/// Opposite corners of the box around points.
+fn corners(points: impl IntoIterator<Item = DVec3>) -> [DVec3; 2] {
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let wider = |[low, high]: [DVec3; 2], point: DVec3| [low.min(point), high.max(point)];
+    points.into_iter().fold(none, wider)
 }

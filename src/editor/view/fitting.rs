@@ -152,12 +152,11 @@ impl View {
     pub(super) fn whole_comb_scale(&self, shown: Shown<'_>) -> Option<f64> {
         let (mut size, mut largest) = (0.0_f64, 0.0_f64);
         for id in self.with_comb(shown) {
-            let known = self.analyses.sampled(id).zip(self.pane.outlines.get(id));
-            let Some((sampled, outlined)) = known else {
+            let Some(sampled) = self.analyses.sampled(id) else {
                 continue;
             };
-            let bounds = outlined.curve.bounds();
-            size = size.max((bounds.high - bounds.low).max_element());
+            // The same from all sides.
+            size = size.max(sampled.samples.extent());
             if let Some(range) = sampled.samples.curvature() {
                 largest = largest.max(range.high.abs()).max(range.low.abs());
             }
