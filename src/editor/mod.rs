@@ -146,7 +146,7 @@ impl Editor {
         self.view
             .look(look, self.hand.shown(&self.workspace, layers));
         if self.view.pane.viewport.orientation != before {
-            self.hand.set_pivot(None);
+            self.hand.forget_pivot();
         }
     }
 

@@ -162,6 +162,33 @@ fn a_pane_pans_zooms_and_turns_alone() {
 }
 
 #[test]
+fn a_pivot_does_not_go_to_another_pane() {
+    let mut script = four();
+    script.command(Command::SelectAll);
+    script.tool(ToolKind::Rotate);
+    // After a rotation the pivot stays where it was, in its pane.
+    let at = on_canvas(&script, 3, script.polygon().vertex(2));
+    script.drag(at, at + DVec2::new(15.0, 20.0));
+    let pivot = |script: &Script| {
+        let editor = &script.editor;
+        editor.hand().pivot(&editor.context()).expect("a pivot")
+    };
+    let turned = pivot(&script);
+    script.move_to(at + DVec2::new(3.0, 2.0));
+    assert_eq!(pivot(&script), turned);
+    // In another one it is in the middle of what is seen there.
+    script.click(DVec2::new(5.0, 690.0));
+    assert_eq!(used(&script), 2);
+    let (_, viewport) = panes(&script)[2];
+    let vertices = script.polygon();
+    let seen = vertices.vertices().iter().map(|it| viewport.flatten(*it));
+    let (low, high) = seen.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), at| {
+        (low.min(at), high.max(at))
+    });
+    assert!(pivot(&script).distance(0.5 * (low + high)) < 1e-9);
+}
+
+#[test]
 fn menus_mean_the_pane_that_was_pressed_last() {
     let mut script = four();
     script.move_to(DVec2::new(700.0, 500.0));

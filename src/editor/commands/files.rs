@@ -288,8 +288,10 @@ impl Editor {
             if self.document().is_empty() {
                 // An empty document has no size: it begins at the usual scale.
                 let Viewport { centre, scale, .. } = Viewport::default();
-                self.view.pane.viewport.centre = centre;
-                self.view.pane.viewport.scale = scale;
+                self.view.each_pane(|view| {
+                    view.pane.viewport.centre = centre;
+                    view.pane.viewport.scale = scale;
+                });
             }
             self.look(Look::All);
         }

@@ -8,13 +8,14 @@ use glam::DVec2;
 
 use crate::document::CurveId;
 use crate::editor::Editor;
+use crate::editor::hand::Hand;
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::{Input, Key};
 use crate::editor::hand::menu::MenuTarget;
 use crate::editor::hand::tools::{Context, Cursor, Effect, ToolKind, Tools};
 use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Message, Note, Refusal, told};
-use crate::editor::view::Look;
+use crate::editor::view::{Look, View};
 use crate::editor::workspace::Interruption;
 
 /// The subject of a requested context menu.
@@ -38,7 +39,7 @@ enum Step {
 impl Editor {
     /// Take an input from the canvas.
     pub fn input(&mut self, mut input: Input) {
-        self.enter_pane(&mut input);
+        enter_pane(&mut self.view, &mut self.hand, &mut input);
         if let Input::Modifiers(modifiers) = input {
             self.hand.modifiers = modifiers;
         }
@@ -108,26 +109,6 @@ impl Editor {
                 Gesture::Key(Key::Tab) => self.hand.cycle.next(self.hand.gestures.pointer()),
                 gesture => self.deliver(gesture, repeats),
             }
-        }
-    }
-
-    /// Use the pane that the pointer is in, unless the hand holds something in another one, and tell the place within
-    /// it.
-    fn enter_pane(&mut self, input: &mut Input) {
-        let before = self.view.pane.viewport.orientation;
-        let stays = matches!(input, Input::Pressed { .. } | Input::Zoomed { .. });
-        let is_free = self.hand.gestures.is_free();
-        if is_free && *input == Input::Left {
-            self.view.use_chosen_pane();
-        }
-        if let Some(at) = input.place_mut() {
-            if is_free {
-                self.view.use_pane_at(*at, stays);
-            }
-            *at -= self.view.pane_corner();
-        }
-        if self.view.pane.viewport.orientation != before {
-            self.hand.set_pivot(None);
         }
     }
 
@@ -343,5 +324,24 @@ impl Editor {
         }
         self.document_changed();
         self.operating().leave_stale();
+    }
+}
+
+/// Use the pane that the pointer is in, unless the hand holds something in another one, and tell the place within it.
+fn enter_pane(view: &mut View, hand: &mut Hand, input: &mut Input) {
+    let before = view.pane.viewport.orientation;
+    let stays = matches!(input, Input::Pressed { .. } | Input::Zoomed { .. });
+    let is_free = hand.gestures.is_free();
+    if is_free && *input == Input::Left {
+        view.use_chosen_pane();
+    }
+    if let Some(at) = input.place_mut() {
+        if is_free {
+            view.use_pane_at(*at, stays);
+        }
+        *at -= view.pane_corner();
+    }
+    if view.pane.viewport.orientation != before {
+        hand.forget_pivot();
     }
 }

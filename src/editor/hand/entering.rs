@@ -143,6 +143,12 @@ impl Hand {
         }
     }
 
+    /// Let the pivot follow the selection again, as where the view is turned: it lies in the view plane.
+    pub(in crate::editor) fn forget_pivot(&mut self) {
+        self.settings.pivot = None;
+        self.settings.turned = None;
+    }
+
     fn transforms(&self) -> bool {
         matches!(self.tool(), ToolKind::Rotate | ToolKind::Scale)
     }

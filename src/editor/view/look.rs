@@ -8,7 +8,7 @@ use crate::editor::view::fitting::middle;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::orientation::Orientation;
 use crate::editor::view::outline::Bounds;
-use crate::editor::view::panes::PaneLayout;
+use crate::editor::view::pane_layout::PaneLayout;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
 

@@ -28,6 +28,7 @@ pub(in crate::editor) mod outline;
 mod outlines;
 pub(in crate::editor) mod overlay;
 mod pane;
+mod pane_layout;
 mod panes;
 mod picture_edges;
 mod plot_chain;
@@ -59,7 +60,8 @@ pub use look::Look;
 pub use named_view::{NamedView, view_name};
 pub use orientation::Orientation;
 pub use outline::{Bounds, GAP, ViewBox};
-pub use panes::{PaneLayout, PaneView};
+pub use pane_layout::PaneLayout;
+pub use panes::PaneView;
 pub use plot_scene::{PlotBand, PlotKind, PlotScene};
 pub use scene::{
     ClampedMark, CurveScene, DragReadout, GuideLabel, GuideScene, HoverScene, Legs, LossArrow,

@@ -19,7 +19,7 @@ use crate::editor::view::evolute::EvoluteCrowd;
 use crate::editor::view::feature_report::FeatureReport;
 use crate::editor::view::layers::Layers;
 use crate::editor::view::pane::Pane;
-use crate::editor::view::panes::PaneLayout;
+use crate::editor::view::pane_layout::PaneLayout;
 use crate::editor::view::plot_scene::{MarkSource, PlotKind, PlotScene, PlotSource};
 use crate::editor::view::scene::Scene;
 use crate::editor::view::shown::Shown;
