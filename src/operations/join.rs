@@ -513,11 +513,7 @@ impl Joining<'_> {
             ));
         }
         if deviation > tolerance {
-            let (possible, asked) = (rounded_up(deviation), significant(tolerance, 3));
-            outcome.remarks.push(format!(
-                "A {name} within {possible} is possible, {asked} is asked for: raise “{}”",
-                TOLERANCE.label
-            ));
+            outcome.remarks.push(possible(name, deviation, tolerance));
         }
         // Ends that meet have one place, those of a blend two.
         let mut joint = [tracks[0].at(left.segments() as f64), tracks[1].at(0.0)];
@@ -823,4 +819,11 @@ impl Gap {
             turning: if turning.is_finite() { turning } else { TAU },
         }
     }
+}
+
+/// Say which tolerance would be kept in place of the one that was asked for.
+pub(super) fn possible(name: &str, deviation: f64, tolerance: f64) -> String {
+    let (possible, asked) = (rounded_up(deviation), significant(tolerance, 3));
+    let label = TOLERANCE.label;
+    format!("A {name} within {possible} is possible, {asked} is asked for: raise “{label}”")
 }

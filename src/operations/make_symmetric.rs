@@ -9,7 +9,7 @@ use super::cutting::without_target;
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::inputs::Inputs;
-use super::join::{MERGING, TOLERANCE, WITHIN, merge_error};
+use super::join::{MERGING, TOLERANCE, WITHIN, merge_error, possible};
 use super::lists::given;
 use super::mirror::{FROM, PLANE, TO, check_free, plane_or_line};
 use super::operands::Operands;
@@ -307,7 +307,7 @@ fn completed(
             closed([first, second], mirror, tolerance, progress)?
         }
         Ok(()) if polygon.is_periodic() => return Ok(corner(id, joint_of(second, first).angle)),
-        Ok(()) => match merged([first, second], mirror, tolerance, progress) {
+        Ok(()) => match merged([first, second], mirror, tolerance, &progress.part(0.0, 0.6)) {
             Err(OperationError::Merge(MergeError::NotFound)) => {
                 smoothed((&part, [first, second]), half, mirror, tolerance, progress)?
             }
@@ -376,6 +376,10 @@ fn completed(
             format!("The half that its image replaces moves by up to {moved}: it is another curve")
         });
     let failed = whole.fault.as_ref().or(another.as_ref());
+    if failed.is_none() && deviation > tolerance {
+        let told = possible("curve", deviation, tolerance);
+        outcome.remarks.insert(0, told);
+    }
     let failed = failed.map(|_| Requirement::Failed { left: None });
     outcome.requirements = vec![(id, failed.into_iter().chain([limit]).collect())];
     outcome.figures = vec![
@@ -456,7 +460,8 @@ fn merged(
         merged.with_polygon(parts, symmetric, &progress)
     };
     let mut merged = within(OF_MERGE[0] * tolerance);
-    for share in &OF_MERGE[1..] {
+    for (tried, share) in OF_MERGE.iter().enumerate().skip(1) {
+        progress.set_done(tried as f64 / OF_MERGE.len() as f64);
         let is_near =
             matches!(&merged, Ok(merged) if merged.deviation <= (1.0 - OF_CUT) * tolerance);
         if is_near || progress.is_cancelled() {
@@ -647,7 +652,9 @@ fn smoothed(
     if let Some(fitted) = refitted(halves, mirror, tolerance, progress)? {
         return Ok(fitted);
     }
+    progress.set_done(0.7);
     let receded = receded(halves.0, half, mirror, progress)?;
+    progress.set_done(0.85);
     if receded.fault.is_none() && receded.off <= (1.0 - OF_CUT) * tolerance {
         return Ok(receded);
     }
