@@ -110,21 +110,6 @@ pub fn snap_to_point(
                 consider(*vertex, &|| format!("Vertex {index}"));
             }
         }
-        let count = polygon.vertices().len();
-        for from in 0..count - usize::from(!polygon.is_periodic()) {
-            let ends = [from, (from + 1) % count];
-            let [start, end] = ends.map(|index| polygon.vertex(index));
-            let middle = 0.5 * (start + end);
-            let near = viewport.flatten(middle).distance(place) <= reach;
-            let is_carried = ends.iter().any(|it| carried.vertices.contains(&(id, *it)));
-            if near && !is_carried {
-                let [start, end] = [start, end].map(|it| viewport.flatten(it));
-                if start.distance(end) >= LONG_LEG * viewport.pixel() {
-                    let [from, to] = ends;
-                    consider(middle, &|| format!("Middle of vertices {from} and {to}"));
-                }
-            }
-        }
         for end in End::BOTH {
             if let Some(target) = curve.targets.get(end)
                 && carried.target != Some((id, end))
@@ -154,6 +139,40 @@ pub fn snap_to_point(
         }
     }
     consider(DVec3::ZERO, &|| "Origin".to_owned());
+    let point = best.map(|(_, snap)| snap);
+    // Ends of curves often lie beside the middle of a leg: they come first.
+    point.or_else(|| snap_to_middle(place, document, carried, viewport))
+}
+
+/// Find the middle of a long leg near a place of the view plane whose vertices are not carried along.
+fn snap_to_middle(
+    place: DVec2,
+    document: &Document,
+    carried: &Carried,
+    viewport: &Viewport,
+) -> Option<Snap> {
+    let mut best: Option<(f64, Snap)> = None;
+    for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
+        let polygon = &curve.polygon;
+        let count = polygon.vertices().len();
+        for from in 0..count - usize::from(!polygon.is_periodic()) {
+            let ends = [from, (from + 1) % count];
+            let [start, end] = ends.map(|index| polygon.vertex(index));
+            let middle = 0.5 * (start + end);
+            let distance = viewport.flatten(middle).distance(place);
+            let nearest = best.as_ref().map_or(f64::INFINITY, |(nearest, _)| *nearest);
+            let length = viewport.flatten(start).distance(viewport.flatten(end));
+            let is_carried = ends.iter().any(|it| carried.vertices.contains(&(id, *it)));
+            if distance <= REACH * viewport.pixel()
+                && distance < nearest
+                && length >= LONG_LEG * viewport.pixel()
+                && !is_carried
+            {
+                let name = format!("Middle of vertices {} and {}", ends[0], ends[1]);
+                best = Some((distance, Snap::to(middle, name)));
+            }
+        }
+    }
     best.map(|(_, snap)| snap)
 }
 
