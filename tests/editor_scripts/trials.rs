@@ -468,7 +468,8 @@ fn what_cannot_run_is_not_begun() {
             .expect("a curve");
         let (before, made) = (script.editor.document().clone(), script.steps());
         let given = script.editor.execute(Command::Operation(operation));
-        assert_eq!(given, Ok(Note::silent()), "it is not offered");
+        let given = given.expect("it is not offered, and says why");
+        assert!(given.text.contains("locked"), "{given:?}");
         let refused = script.editor.preview_operation(operation);
         let refused = refused.expect_err("a refusal");
         assert!(refused.0.contains("locked"), "{refused}");
