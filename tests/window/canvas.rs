@@ -99,9 +99,9 @@ fn vertices_are_dragged_in_panes() {
     }
     // The gizmo and the badge belong to a single view.
     assert!(window.query_by_label_contains("Axes: drag").is_none());
-    for (height, kept) in [(-0.25, 2), (0.25, 1)] {
+    for (along, height, kept) in [(-0.25, -0.25, 2), (-0.25, 0.25, 1), (0.25, 0.25, 0)] {
         let middle = whole.center();
-        let away = vec2(-0.25 * whole.width(), height * whole.height());
+        let away = vec2(along * whole.width(), height * whole.height());
         window.hover_at(middle + away);
         window.run();
         let pane = window.state().canvas_rect().expect("a pane");

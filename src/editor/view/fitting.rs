@@ -39,6 +39,25 @@ impl View {
             view.analyse(shown.document());
             view.show_all(shown);
         });
+        self.even_scales(shown);
+    }
+
+    /// Give all panes that show everything the scale of the one that needs the smallest: a planar curve that is seen
+    /// from the edge stays as large as it is.
+    pub(super) fn even_scales(&mut self, shown: Shown<'_>) {
+        let now = |view: &Self| view.pane.fitted == Some(view.fitted_now(shown));
+        let mut scale = f64::INFINITY;
+        self.each_pane(|view| {
+            if now(view) {
+                scale = scale.min(view.pane.viewport.scale);
+            }
+        });
+        self.each_pane(|view| {
+            if now(view) {
+                view.pane.viewport.scale = scale;
+                view.pane.fitted = Some(view.fitted_now(shown));
+            }
+        });
     }
 
     pub(super) fn set_canvas_size(&mut self, size: DVec2, shown: Shown<'_>) {

@@ -153,5 +153,6 @@ impl View {
                 view.set_pane_size(*size, shown);
             }
         });
+        self.even_scales(shown);
     }
 }
