@@ -8,7 +8,7 @@ use super::leaps;
 use super::revision::Revision;
 use super::sample::{PieceSampler, Sample};
 use crate::geometry::references::Placement;
-use crate::geometry::{ParametricCurve, Range as Span};
+use crate::geometry::{ParametricCurve, Range as Span, bounds};
 
 /// Pieces in one block.
 pub(super) const BLOCK: usize = 32;
@@ -72,7 +72,7 @@ impl CurveSamples {
             length: 0.0,
             longest_step: 0.0,
             curvature: None,
-            corners: corners([]),
+            corners: [DVec3::ZERO; 2],
             starts: [0.0; BLOCK],
         };
         let mut samples = Self {
@@ -183,7 +183,7 @@ impl CurveSamples {
 
     /// The longest side of the box around the curve, by its samples.
     pub fn extent(&self) -> f64 {
-        let [low, high] = corners(self.blocks.iter().flat_map(|block| block.corners));
+        let (low, high) = bounds(self.blocks.iter().flat_map(|block| block.corners));
         (high - low).max_element()
     }
 
@@ -251,7 +251,7 @@ impl CurveSamples {
             length,
             longest_step: longest.sqrt(),
             curvature: Span::of(samples.iter().map(|sample| sample.curvature)),
-            corners: corners(points.filter(|point| point.is_finite())),
+            corners: bounds(points.filter(|point| point.is_finite())).into(),
             starts,
         }
     }
@@ -281,11 +281,4 @@ impl SampledCurve<'_> {
         let before: f64 = before.iter().map(|block| block.length).sum();
         before + self.samples.length_in_block(piece, t)
     }
-}
-
-/// Opposite corners of the box around points.
-fn corners(points: impl IntoIterator<Item = DVec3>) -> [DVec3; 2] {
-    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-    let wider = |[low, high]: [DVec3; 2], point: DVec3| [low.min(point), high.max(point)];
-    points.into_iter().fold(none, wider)
 }

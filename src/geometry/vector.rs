@@ -44,8 +44,8 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
     }
 }
 
-/// The corners of the smallest box that holds points, inside out if there are none.
-pub(super) fn bounds(points: impl IntoIterator<Item = impl Borrow<DVec3>>) -> (DVec3, DVec3) {
+/// Find the corners of the smallest box that holds points, inside out if there are none.
+pub fn bounds(points: impl IntoIterator<Item = impl Borrow<DVec3>>) -> (DVec3, DVec3) {
     let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let points = points.into_iter();
     points.fold(none, |(low, high), point| {

@@ -21,7 +21,7 @@ use crate::geometry::approximation::{
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{
-    Differentiable, FloatPolygon, MAX_DEGREE, Progress, sampled_cusps, significant,
+    Differentiable, FloatPolygon, MAX_DEGREE, Progress, bounds, sampled_cusps, significant,
 };
 
 /// The most vertices that can be asked for.
@@ -545,9 +545,7 @@ fn remark_on_size(
         let share = index as f64 / SIZE_SAMPLES as f64;
         curve.derivatives(from * (1.0 - share) + to * share, 0)[0]
     };
-    let points: Vec<DVec3> = (0..=SIZE_SAMPLES).map(sample).collect();
-    let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let (low, high) = bounds((0..=SIZE_SAMPLES).map(sample));
     let size = low.distance(high);
     let off = found.distance();
     (tolerance.is_none() && off > FAR * size).then(|| {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::geometry::fitting::{Fitted, PlaneFit, SharpBend};
 use crate::geometry::polygon_figures::{FOLD, sharpest_turn};
-use crate::geometry::{BezierPolygon, End, FloatPolygon, percent, significant};
+use crate::geometry::{BezierPolygon, End, FloatPolygon, bounds, percent, significant};
 
 /// A vertex farther off the curve than so many times its size is named.
 const LONG_TAIL: f64 = 5.0;
@@ -121,9 +121,7 @@ fn fold(polygon: &FloatPolygon) -> Option<String> {
 /// Name a vertex that lies far off the curve: it can hardly be dragged.
 fn tails(polygon: &FloatPolygon) -> Option<String> {
     let places = (0..=4 * polygon.segments()).map(|it| polygon.point(it as f64 / 4.0));
-    let places: Vec<DVec3> = places.collect();
-    let low = places.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = places.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let (low, high) = bounds(places);
     let off = |vertex: &DVec3| vertex.distance(vertex.clamp(low, high)) / low.distance(high);
     let all = polygon.vertices().iter().map(off).enumerate();
     let (vertex, farthest) = all.max_by(|a, b| a.1.total_cmp(&b.1))?;

@@ -9,7 +9,7 @@ use crate::geometry::approximation::{
     Approximated, ApproximationRequest, Goal, MOST_SEGMENTS, Placing, approximate_to_tolerance,
 };
 use crate::geometry::references::{Nurbs, ReferenceCurve, ReferenceForm};
-use crate::geometry::{MAX_DEGREE, ParametricCurve, Progress, counted, rounded_up};
+use crate::geometry::{MAX_DEGREE, ParametricCurve, Progress, bounds, counted, rounded_up};
 
 /// The tolerance without a wish, in units of a reference's size.
 const WITHIN: f64 = 1e-4;
@@ -297,9 +297,6 @@ fn divided(nurbs: &Nurbs, at: f64) -> Option<[Nurbs; 2]> {
 fn size(curve: &ReferenceCurve) -> f64 {
     let steps = STEPS * curve.pieces();
     let points = (0..=steps).map(|step| curve.jet(step as f64 / STEPS as f64).point);
-    let [low, high] = points.fold(
-        [glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY],
-        |it, point| [it[0].min(point), it[1].max(point)],
-    );
+    let (low, high) = bounds(points);
     low.distance(high)
 }

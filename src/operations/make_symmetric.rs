@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use super::bridge::{self, found};
 use super::cutting::without_target;
@@ -25,8 +25,8 @@ use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::fitting::{PlaneFit, SymmetryAxis, fit_plane};
 use crate::geometry::{
-    BezierPolygon, End, FloatPolygon, Mirror, Progress, Symmetry, arc_length_between, counted,
-    significant,
+    BezierPolygon, End, FloatPolygon, Mirror, Progress, Symmetry, arc_length_between, bounds,
+    counted, significant,
 };
 
 const AXIS: Parameter = Parameter {
@@ -279,8 +279,7 @@ fn nearest(
 pub(super) fn smaller_side(polygon: &FloatPolygon) -> f64 {
     let samples = 0..=SAMPLES * polygon.segments();
     let samples = samples.map(|sample| polygon.point(sample as f64 / SAMPLES as f64));
-    let box_of = |[low, high]: [DVec3; 2], at: DVec3| [low.min(at), high.max(at)];
-    let [low, high] = samples.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], box_of);
+    let (low, high) = bounds(samples);
     let mut sides = (high - low).to_array();
     sides.sort_by(f64::total_cmp);
     sides[1]

@@ -10,7 +10,7 @@ use crate::editor::view::outline::Bounds;
 use crate::editor::view::shown::Shown;
 use crate::editor::view::view::View;
 use crate::editor::view::viewport::Viewport;
-use crate::geometry::FloatPolygon;
+use crate::geometry::{FloatPolygon, bounds};
 
 /// The length of the comb's longest tooth after a reset, as a share of the longer side of the curve's box.
 const COMB_HEIGHT: f64 = 0.35;
@@ -286,11 +286,7 @@ impl View {
 /// The middle of the box around the float S-polygons that are shown.
 pub(super) fn middle(document: &Document) -> DVec3 {
     let shown = document.curves().filter(|(_, curve)| curve.visible);
-    let vertices = shown.flat_map(|(_, curve)| curve.polygon.vertices());
-    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (low, high) = vertices.fold(start, |(low, high), vertex| {
-        (low.min(*vertex), high.max(*vertex))
-    });
+    let (low, high) = bounds(shown.flat_map(|(_, curve)| curve.polygon.vertices()));
     if low.is_finite() {
         0.5 * (low + high)
     } else {

@@ -4,6 +4,8 @@ use std::ops::RangeInclusive;
 
 use glam::DVec3;
 
+use crate::geometry::bounds;
+
 /// The share of the size of the points that the longest whisker has at most, without a scale of the user's own.
 const LONGEST: f64 = 0.05;
 
@@ -26,8 +28,7 @@ impl Whiskers {
     pub fn scale_for(&self, points: &[DVec3], largest: f64) -> f64 {
         let (least, most) = Self::SCALES.into_inner();
         let own = || {
-            let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-            let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+            let (low, high) = bounds(points);
             // Shorter than they are, distances would mislead.
             round_below(LONGEST * (high - low).length() / largest).max(1.0)
         };
