@@ -363,7 +363,7 @@ impl Canvas {
         let has_grid = editor.sight().layers().shows(Layer::Grid);
         let overlays = widgets::overlays(ui.ctx());
         self.pictures.begin_frame();
-        for pane in editor.view().panes() {
+        for (place, pane) in editor.view().panes().enumerate() {
             let own = pane_rect(rect, &pane);
             let painter = ui.painter_at(own);
             painter.rect_filled(own, 0, tokens.background);
@@ -389,10 +389,9 @@ impl Canvas {
                 self.pane = Some(own);
             }
             if editor.view().pane_layout() != PaneLayout::One {
-                name_ui(ui, &brush, &pane);
+                name_ui(ui, &brush, (place, &pane));
             }
         }
-        self.pictures.end_frame();
     }
 
     /// Give the canvas the keyboard whenever nothing else wants it, with Tab and arrow keys.
@@ -422,7 +421,7 @@ fn pane_rect(canvas: Rect, pane: &PaneView) -> Rect {
 }
 
 /// Name the side from which a pane sees the model, in its lower right corner, and frame the pane in use.
-fn name_ui(ui: &Ui, brush: &Brush<'_>, pane: &PaneView) {
+fn name_ui(ui: &Ui, brush: &Brush<'_>, (place, pane): (usize, &PaneView)) {
     let (name, tokens) = (view_name(&pane.viewport.orientation), brush.tokens);
     let colour = match pane.is_used {
         true => tokens.strong_text,
@@ -432,17 +431,10 @@ fn name_ui(ui: &Ui, brush: &Brush<'_>, pane: &PaneView) {
     let at = brush.rect.right_bottom() - vec2(2.0 * STEP, 6.0 * STEP);
     let font = theme::small_font();
     let size = labels::size(brush.painter, name, font.clone());
-    let place = Align2::RIGHT_BOTTOM.anchor_size(at, size);
-    labels::paint(
-        brush,
-        place.left_top(),
-        Align2::LEFT_TOP,
-        name,
-        font,
-        colour,
-    );
+    let rect = Align2::RIGHT_BOTTOM.anchor_size(at, size);
+    labels::paint(brush, rect.left_top(), Align2::LEFT_TOP, name, font, colour);
     let label = format!("Pane: {name}");
-    let response = ui.interact(place, Id::unique(("pane", name)), Sense::hover());
+    let response = ui.interact(rect, Id::unique(("pane", place)), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
     if pane.is_used {
         let stroke = Stroke::new(1.0, tokens.accent);

@@ -51,8 +51,12 @@ struct Placed<'a> {
 }
 
 impl PictureTextures {
-    /// Begin a frame, in which each pane paints pictures.
+    /// Begin a frame, in which each pane paints pictures: forget tiles that none used in the last one, if there are many.
     pub fn begin_frame(&mut self) {
+        if self.kept.len() > MOST_KEPT {
+            let last = self.frame;
+            self.kept.retain(|_, tile| tile.used == last);
+        }
         self.frame += 1;
         self.handed = 0;
     }
@@ -77,14 +81,6 @@ impl PictureTextures {
                 }
                 Err(reason) => paint_reason(brush, corner + 0.5 * (sides[0] + sides[1]), reason),
             }
-        }
-    }
-
-    /// End a frame: forget tiles that no pane has used, if there are many.
-    pub fn end_frame(&mut self) {
-        if self.kept.len() > MOST_KEPT {
-            let frame = self.frame;
-            self.kept.retain(|_, tile| tile.used == frame);
         }
     }
 

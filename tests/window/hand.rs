@@ -131,3 +131,19 @@ pub fn double_click(window: &mut Window, at: Pos2) {
     window.run();
     window.run();
 }
+
+/// Click with the second button.
+pub fn right_click(window: &mut Window, at: Pos2) {
+    window.hover_at(at);
+    window.run();
+    for pressed in [true, false] {
+        window.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+    window.run();
+}

@@ -18,22 +18,6 @@ fn open_s_curve() -> Window {
     open_window_with(editor, 1480.0, 920.0)
 }
 
-/// Click with the second button.
-fn right_click(window: &mut Window, at: Pos2) {
-    window.hover_at(at);
-    window.run();
-    for pressed in [true, false] {
-        window.event(Event::PointerButton {
-            pos: at,
-            button: PointerButton::Secondary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
-        window.step();
-    }
-    window.run();
-}
-
 fn has(window: &Window, label: &str) -> bool {
     window.query_all_by_label(label).next().is_some()
 }
