@@ -161,7 +161,7 @@ impl Editor {
         self.view.guide(shown, &overlay);
         let operation = self.operations.current(&self.workspace, shown.active());
         self.view.each_other_pane(|view| {
-            view.analyse(shown.document());
+            view.outline();
             let viewport = &view.pane.viewport;
             let points = operation.map(|it| it.point_marks(viewport, &view.whiskers, None));
             let previewed = operation.filter(|it| !it.is_applied());

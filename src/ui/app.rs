@@ -401,11 +401,9 @@ impl App {
     }
 
     fn perform(&mut self, context: &Context, action: Action) {
-        if !action.is_enabled(&self.editor) {
-            // A key asks for what menus do not offer: the editor says why not.
-            if let Action::Command(command) = action {
-                told(self.editor.execute(command));
-            }
+        // A key also gives a command that menus do not offer: the editor says why it cannot be given.
+        let is_answered = matches!(action, Action::Command(_));
+        if !is_answered && !action.is_enabled(&self.editor) {
             return;
         }
         if action.covers_canvas() && self.editor.hand().is_dragging() {

@@ -5,8 +5,8 @@ use glam::DVec2;
 use crate::editor::view::named_view::NamedView;
 use crate::editor::view::orientation::Orientation;
 
-/// The gap between panes, in screen points.
-const GAP: f64 = 2.0;
+/// The distance between panes, in screen points.
+const BETWEEN: f64 = 2.0;
 
 /// How many panes the canvas has, and how they lie.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -56,12 +56,13 @@ impl PaneLayout {
     /// The upper left corners and the sizes of the panes on a canvas of a size, row by row.
     pub(super) fn boxes(self, canvas: DVec2) -> Vec<[DVec2; 2]> {
         let [columns, rows] = self.grid();
-        let gaps = DVec2::new(columns as f64 - 1.0, rows as f64 - 1.0) * GAP;
+        let gaps = DVec2::new(columns as f64 - 1.0, rows as f64 - 1.0) * BETWEEN;
         let size = (canvas - gaps) / DVec2::new(columns as f64, rows as f64);
         let size = size.max(DVec2::ZERO);
         let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
-        let corner =
-            |(column, row): (usize, usize)| DVec2::new(column as f64, row as f64) * (size + GAP);
+        let corner = |(column, row): (usize, usize)| {
+            DVec2::new(column as f64, row as f64) * (size + BETWEEN)
+        };
         places.map(|place| [corner(place), size]).collect()
     }
 

@@ -110,9 +110,8 @@ impl View {
         if layout == self.layout {
             return;
         }
+        let (viewport, target) = (self.pane.viewport, self.pane.target);
         let mut present = Some(std::mem::take(&mut self.pane));
-        let before = present.as_ref().map(|it| (it.viewport, it.target));
-        let (viewport, target) = before.unwrap_or_default();
         let orientations = layout.orientations(viewport.orientation);
         let place = orientations
             .iter()

@@ -182,6 +182,11 @@ impl View {
     /// Update the analyses and the outlines, which hit tests read.
     pub(in crate::editor) fn analyse(&mut self, document: &Document) {
         self.analyses.update(document);
+        self.outline();
+    }
+
+    /// Update the outlines of the pane in use, with analyses that are up to date.
+    pub(in crate::editor) fn outline(&mut self) {
         let orientation = self.pane.viewport.orientation;
         self.pane.outlines.update(&self.analyses, orientation);
     }
