@@ -8,6 +8,7 @@ use super::curve::{Curve, CurveId};
 use super::end_match::EndMatch;
 use super::extras::Extras;
 use super::group::Group;
+use super::guide_line::GuideLine;
 use super::names::free_name;
 use super::picture::{Picture, PictureSource};
 use super::reference::Reference;
@@ -24,6 +25,7 @@ pub struct Document {
     pub(super) next: u64,
     pub(super) matches: Vec<EndMatch>,
     pub(super) unit: Option<LengthUnit>,
+    pub(super) guide_lines: Vec<GuideLine>,
     extras: Extras,
 }
 
@@ -210,10 +212,11 @@ impl Document {
     }
 
     /// Whether the other document holds equal curves and equal references in the same order, the same matches,
-    /// unit and unknown keys. Shared curves are not compared number by number.
+    /// unit, guide lines and unknown keys. Shared curves are not compared number by number.
     pub fn is_same(&self, other: &Self) -> bool {
         self.unit == other.unit
             && self.matches == other.matches
+            && self.guide_lines == other.guide_lines
             && self.extras == other.extras
             && are_same(&self.curves, &other.curves)
             && are_same(&self.references, &other.references)

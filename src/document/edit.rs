@@ -10,6 +10,7 @@ use super::document::Document;
 use super::end_match::EndMatch;
 use super::error::EditError;
 use super::group::Group;
+use super::guide_line::GuideLine;
 use super::picture::Picture;
 use super::reference::Reference;
 use super::renumbering::Renumbering;
@@ -136,6 +137,8 @@ pub enum Edit {
     SetUnit(Option<LengthUnit>),
     /// Convert the document to another unit of length: everything keeps its size, 25.4 mm become 1 in.
     ConvertUnit(LengthUnit),
+    /// Replace the guide lines.
+    SetGuideLines(Vec<GuideLine>),
     /// Add a curve behind the others. It gets [`Document::next_id`].
     Add(Box<Curve>),
     /// Add a reference behind the others. It gets [`Document::next_id`].
@@ -262,6 +265,10 @@ impl Document {
                 Ok(())
             }
             Edit::ConvertUnit(unit) => self.convert_unit(unit),
+            Edit::SetGuideLines(lines) => {
+                self.set_guide_lines(lines);
+                Ok(())
+            }
             Edit::Add(curve) if !curve.targets.are_usable() => Err(EditError::BadTarget),
             Edit::Add(curve) => {
                 check_vertices(&curve, curve.locked_vertices.iter())?;

@@ -90,7 +90,7 @@ impl Document {
         Ok(Merge { edits, remark })
     }
 
-    /// The edits that add the curves, references and matches of another document with their numbers as they are.
+    /// The edits that add the curves, references, matches and guide lines of another document with their numbers as they are.
     fn additions(&self, other: &Self) -> Vec<Edit> {
         let old: Vec<CurveId> = other.all_ids().collect();
         let new: Vec<CurveId> = self.next_ids().take(old.len()).collect();
@@ -110,7 +110,13 @@ impl Document {
                 ..*matched
             }))
         });
-        curves.chain(references).chain(matches).collect()
+        let lines = [self.guide_lines(), other.guide_lines()].concat();
+        let lines = (!other.guide_lines().is_empty()).then_some(Edit::SetGuideLines(lines));
+        curves
+            .chain(references)
+            .chain(matches)
+            .chain(lines)
+            .collect()
     }
 }
 

@@ -45,6 +45,9 @@ impl Document {
         for (_, reference) in &mut document.references {
             *reference = Arc::new(converted_reference(reference, changed(1.0))?);
         }
+        for line in &mut document.guide_lines {
+            line.at = changed(line.at);
+        }
         Ok(document)
     }
 }

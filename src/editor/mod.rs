@@ -20,7 +20,7 @@ use std::time::Duration;
 pub use commands::drawing::end_drawing;
 pub use commands::{
     Command, CopyForm, PICTURE_PLANES, Pasted, PictureChange, ReferenceChange, Shortcut,
-    measured_direction, picture_plane,
+    measured_direction, met_curves, picture_plane,
 };
 pub use dispatch::MenuOf;
 pub use hand::{
@@ -43,7 +43,7 @@ pub use view::{
     CurveScene, DragReadout, EndFitMarks, EvoluteCrowd, FeatureKind, FeatureMark, FeatureReport,
     FeatureRow, GAP, GroundGrid, GuideLabel, GuideScene, HoverScene, Layer, LayerRow, LayerSample,
     Layers, Legs, Look, LossArrow, Mark, MeasuredFigure, NamedView, Orientation, PaneLayout,
-    PaneView, PictureScene, PieceTrend, PlotBand, PlotKind, PlotScene, REACH, Scene, Sight,
+    PaneView, PictureScene, PieceTrend, PlotBand, PlotKind, PlotScene, REACH, RULER, Scene, Sight,
     VertexMark, View, ViewBox, Viewport, Whiskers, grid_steps, ground_grid, view_name,
 };
 pub use workspace::{Interruption, PreviewId, Workspace};

@@ -130,6 +130,13 @@ impl Symmetry {
         self.second
     }
 
+    /// The planes, each by a point and its normal of length 1; none of half a turn.
+    pub fn planes(&self) -> impl Iterator<Item = [DVec3; 2]> + use<> {
+        let mirrors = [Some(self.mirror), self.second];
+        let mirrors = mirrors.into_iter().flatten();
+        mirrors.filter_map(|mirror| mirror.plane())
+    }
+
     /// The number of the vertex that is the image of another one, of `count` vertices.
     pub fn partner(&self, index: usize, count: usize) -> usize {
         (self.sum + count - index % count) % count

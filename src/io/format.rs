@@ -6,7 +6,7 @@ use std::hash::{Hash, Hasher};
 use super::error::{Place, Problem, ReadError, WriteError};
 use super::exchange::changes::Rewriter;
 use super::exchange::drawing::{Drawing, Unreadable};
-use super::loss::{Export, Loss, LossReport};
+use super::loss::{DocumentLoss, Export, Loss, LossReport};
 use super::reading::Reading;
 use super::table_columns::ColumnChoice;
 use crate::document::Document;
@@ -35,8 +35,8 @@ pub struct Format {
     /// Writes changes into the text of a file that was read, and leaves everything else as it was; `None` if the format
     /// does not allow it.
     pub(super) rewrite: Option<Rewriter>,
-    /// Whether its lengths have no unit at all, as in glyphs.
-    pub(super) is_unitless: bool,
+    /// What its files say of the unit of length.
+    pub(super) file_unit: FileUnit,
     /// Whether it holds matches and unknown keys; then a document can be saved in it.
     pub holds_documents: bool,
     /// The exports that the menu offers.
@@ -74,6 +74,17 @@ impl From<Option<PolygonKind>> for Writing {
             ..Self::default()
         }
     }
+}
+
+/// What the files of a format say of the unit of length.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum FileUnit {
+    /// The unit, where it is known.
+    Optional,
+    /// Always a unit: numbers without one are written as millimetres.
+    Always,
+    /// Nothing: lengths have no unit at all, as in glyphs.
+    None,
 }
 
 /// A row of the menu for an export.
@@ -147,7 +158,7 @@ impl Format {
         match draw(bytes) {
             Ok(drawing) => Ok(Drawing {
                 is_binary,
-                is_unitless: self.is_unitless,
+                is_unitless: self.file_unit == FileUnit::None,
                 ..drawing
             }),
             Err(Unreadable { at, reason }) => Err(match (at, is_binary) {
@@ -219,7 +230,10 @@ impl Format {
             .losses
             .extend(pictures.map(|name| (name, Loss::Picture)));
         losses.add_matches(document, |_| true);
-        losses.project_keys = !document.extras().is_empty();
+        losses.add_document(document);
+        if self.file_unit == FileUnit::Always && document.unit().is_none() {
+            losses.of_document.push(DocumentLoss::Unit);
+        }
         Ok(Export { bytes, losses })
     }
 }

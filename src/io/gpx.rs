@@ -3,7 +3,7 @@
 use roxmltree::{Document, Node};
 
 use super::error::{Place, Problem, ReadError};
-use super::format::Format;
+use super::format::{FileUnit, Format};
 use super::reading::Reading;
 use super::table_points::{PointReader, Row};
 use super::tangent_plane::position;
@@ -21,7 +21,7 @@ pub static GPX: Format = Format {
     write: None,
     write_back: None,
     rewrite: None,
-    is_unitless: false,
+    file_unit: FileUnit::Optional,
     holds_documents: false,
     exports: &[],
 };

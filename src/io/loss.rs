@@ -22,8 +22,33 @@ pub struct LossReport {
     pub format: &'static str,
     /// The losses, each with the name of its curve or its reference.
     pub losses: Vec<(String, Loss)>,
-    /// Whether the unknown keys of the project are lost.
-    pub project_keys: bool,
+    /// The losses of the document as a whole.
+    pub of_document: Vec<DocumentLoss>,
+}
+
+/// Something that a file does not hold of a document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DocumentLoss {
+    /// The unknown keys of the project.
+    UnknownKeys,
+    /// The guides.
+    Guides,
+    /// That there is no unit.
+    Unit,
+}
+
+impl DocumentLoss {
+    fn text(self, format: &str) -> String {
+        match self {
+            Self::UnknownKeys => {
+                format!("the project's unknown keys aren't stored in the {format}")
+            }
+            Self::Guides => format!("the guides aren't stored in the {format}"),
+            Self::Unit => {
+                "the document has no unit: its numbers are written as millimetres".to_owned()
+            }
+        }
+    }
 }
 
 /// Something that a file does not hold of a curve or a reference.
@@ -178,13 +203,21 @@ impl LossReport {
         Self {
             format,
             losses: Vec::new(),
-            project_keys: false,
+            of_document: Vec::new(),
         }
     }
 
     /// Whether nothing is lost.
     pub fn is_empty(&self) -> bool {
-        self.losses.is_empty() && !self.project_keys
+        self.losses.is_empty() && self.of_document.is_empty()
+    }
+
+    /// Add what a document has beside its curves and references.
+    pub(super) fn add_document(&mut self, document: &Document) {
+        let keys = (!document.extras().is_empty()).then_some(DocumentLoss::UnknownKeys);
+        let guides = (!document.guide_lines().is_empty()).then_some(DocumentLoss::Guides);
+        self.of_document
+            .extend([keys, guides].into_iter().flatten());
     }
 
     /// How many curves and references are not written at all.
@@ -302,10 +335,9 @@ impl fmt::Display for LossReport {
                 group.loss.text(format, group.differs)
             )
         });
-        let of_project = self
-            .project_keys
-            .then(|| format!("the project's unknown keys aren't stored in the {format}"));
-        let lines: Vec<String> = of_curves.chain(of_project).collect();
+        let of_document = self.of_document.iter();
+        let of_document = of_document.map(|loss| loss.text(format));
+        let lines: Vec<String> = of_curves.chain(of_document).collect();
         formatter.write_str(&lines.join("\n"))
     }
 }

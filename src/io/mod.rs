@@ -31,6 +31,7 @@ mod polygon;
 mod project;
 mod project_curves;
 mod project_file;
+mod project_guides;
 mod project_matches;
 mod project_references;
 mod project_symmetry;

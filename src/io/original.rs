@@ -70,7 +70,7 @@ impl Original {
         match self.rewritten(document, &mut losses) {
             Some(Ok(bytes)) => {
                 losses.add_matches(document, |_| true);
-                losses.project_keys = !document.extras().is_empty();
+                losses.add_document(document);
                 Ok(kept(bytes, losses))
             }
             other => {

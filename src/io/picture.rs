@@ -9,7 +9,7 @@ use image::metadata::Orientation;
 use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder, ImageReader, Limits};
 
 use super::error::{Problem, ReadError};
-use super::format::Format;
+use super::format::{FileUnit, Format};
 use super::reading::{Reading, Remark};
 use crate::document::{Picture, PictureSource, Reference};
 use crate::geometry::expressions::LengthUnit;
@@ -36,7 +36,7 @@ pub static PICTURE: Format = Format {
     rewrite: None,
     read_chosen: None,
     draw: None,
-    is_unitless: false,
+    file_unit: FileUnit::Optional,
     holds_documents: false,
     exports: &[],
 };

@@ -11,7 +11,7 @@
 use glam::DVec3;
 
 use super::error::WriteError;
-use super::format::{Format, Writing};
+use super::format::{FileUnit, Format, Writing};
 use super::loss::LossReport;
 use super::table;
 use super::table_header::TableHeader;
@@ -28,7 +28,7 @@ pub static POINT_TABLE: Format = Format {
     write: Some(write),
     write_back: None,
     rewrite: None,
-    is_unitless: false,
+    file_unit: FileUnit::Optional,
     holds_documents: false,
     exports: &[],
 };

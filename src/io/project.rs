@@ -12,7 +12,7 @@
 //! target, and `matches`, `references`, the `unit` of length ("mm", "cm", "m" or "in"; left out if there
 //! is none) and `numbers` to the project. These number its curves, then its references, in the order in
 //! which they were made: the next colour of the palette goes by them. Without them they are counted
-//! from 0. In a file of version 1 these keys are unknown ones.
+//! from 0. `guides` are the places of guide lines by coordinate, as in `{"x": [12.5], "y": [0.0, 80.0]}`. In a file of version 1 these keys are unknown ones.
 
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
@@ -20,7 +20,7 @@ use serde_json::Value;
 use serde_path_to_error::{Path, Segment};
 
 use super::error::{Place, Problem, ReadError, WriteError};
-use super::format::{Format, Writing};
+use super::format::{FileUnit, Format, Writing};
 use super::json_layout;
 use super::loss::LossReport;
 use super::object::Version;
@@ -39,7 +39,7 @@ pub static PROJECT: Format = Format {
     rewrite: None,
     read_chosen: None,
     draw: None,
-    is_unitless: false,
+    file_unit: FileUnit::Optional,
     holds_documents: true,
     exports: &[],
 };

@@ -11,6 +11,7 @@ use super::file_match::{FileMatch, MatchSource};
 use super::loss::LossReport;
 use super::object::{Object, UnknownKeys, Version};
 use super::project_curves::ProjectCurve;
+use super::project_guides::ProjectGuides;
 use super::project_matches::ProjectMatch;
 use super::project_references::ProjectReference;
 use super::project_values::{ByName, Number};
@@ -44,6 +45,7 @@ impl Version for Version1 {
         "normal",
         "slope",
         "symmetry",
+        "guides",
     ];
 }
 
@@ -76,6 +78,9 @@ pub(super) struct Project<V> {
     references: Vec<Object<ProjectReference, V>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     matches: Vec<Object<ProjectMatch, V>>,
+    /// The guide lines.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    guides: Option<Object<ProjectGuides, V>>,
     /// The numbers of the curves, then of the references; without them they are counted from 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     numbers: Vec<Number>,
@@ -105,12 +110,14 @@ impl ProjectFile<Version2> {
                 .iter()
                 .map(|matched| Object::new(matched.into()))
                 .collect(),
+            guides: ProjectGuides::of(document.guide_lines()).map(Object::new),
             numbers: numbers.iter().map(|it| Number(*it as usize)).collect(),
         };
         if project.unit.is_some()
             || !project.references.is_empty()
             || !project.matches.is_empty()
             || !project.numbers.is_empty()
+            || project.guides.is_some()
             || project.curves.iter().any(|it| it.value.needs_version_2())
         {
             project.version = Version2::NUMBER.into();
@@ -167,12 +174,18 @@ impl<V: Version> ProjectFile<V> {
         for key in unknown.0 {
             remarks.add(Remark::unknown_key(&key, Owner::Matches));
         }
+        let mut unknown = UnknownKeys::default();
+        let guides = unknown.strip(project.guides);
+        for key in unknown.0 {
+            remarks.add(Remark::unknown_key(&key, Owner::Project));
+        }
         let reading = Reading {
             curves,
             references,
             matches,
             unit: project.unit.map(|unit| unit.0),
             numbers: project.numbers.iter().map(|it| it.0 as u64).collect(),
+            guide_lines: guides.map_or_else(Vec::new, ProjectGuides::into_lines),
             extras,
             remarks,
         };

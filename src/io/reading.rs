@@ -6,7 +6,9 @@ use std::fmt;
 use super::airfoil_order::AirfoilOrder;
 use super::file_match::FileMatch;
 use super::table_column::TableColumn;
-use crate::document::{Curve, CurveId, Document, EditError, EndMatch, Extras, Reference, quoted};
+use crate::document::{
+    Curve, CurveId, Document, EditError, EndMatch, Extras, GuideLine, Reference, quoted,
+};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::{PolygonKind, counted, rounded_up};
 
@@ -26,6 +28,8 @@ pub struct Reading {
     pub unit: Option<LengthUnit>,
     /// The numbers of the curves, then of the references, if a project says them.
     pub numbers: Vec<u64>,
+    /// The guide lines of a project.
+    pub guide_lines: Vec<GuideLine>,
     /// The unknown keys of a project.
     pub extras: Extras,
     /// The remarks for the user.
@@ -170,6 +174,7 @@ impl Reading {
             .with_references(self.references)
             .with_numbers(&self.numbers)
             .with_unit(self.unit)
+            .with_guide_lines(self.guide_lines)
             .with_extras(self.extras);
         let curves: Vec<CurveId> = document.ids().collect();
         let references: Vec<CurveId> = document.references().map(|(id, _)| id).collect();

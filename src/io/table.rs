@@ -29,7 +29,7 @@ use glam::DVec3;
 
 use super::decimals::Decimals;
 use super::error::{Place, Problem, ReadError, WriteError};
-use super::format::{ExportRow, Format, Writing};
+use super::format::{ExportRow, FileUnit, Format, Writing};
 use super::loss::{Loss, LossReport};
 use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
@@ -52,7 +52,7 @@ pub static TABLE: Format = Format {
     write: Some(write),
     write_back: None,
     rewrite: None,
-    is_unitless: false,
+    file_unit: FileUnit::Optional,
     holds_documents: false,
     exports: &[
         export("Export float S-polygon as CSV…", PolygonKind::Float),
@@ -81,7 +81,7 @@ pub static TAB_TABLE: Format = Format {
     write: Some(write_with_tabs),
     write_back: None,
     rewrite: None,
-    is_unitless: false,
+    file_unit: FileUnit::Optional,
     holds_documents: false,
     exports: &[],
 };

@@ -22,6 +22,7 @@ use crate::geometry::approximation::close_halves;
 use crate::geometry::approximation::merging::{MergeError, check_joint, joint_of, merge};
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::fairing::bridging::{Bridge, join};
+use crate::geometry::fairing::mirrored_half::joined_to_image;
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::fitting::{PlaneFit, SymmetryAxis, fit_plane};
 use crate::geometry::{
@@ -72,6 +73,12 @@ const OVERSHOOT: f64 = 0.1;
 
 /// The share of a half that a bridge replaces where nothing else is found: less leaves no room to turn a corner off.
 const RECEDED: f64 = 0.04;
+
+/// How often the segments of a half that bends are halved: few vertices come first.
+const HALVED: [u32; 2] = [0, 1];
+
+/// How many vertices bend near the axis, as multiples of the degree and more: many bend fairly, few stay near.
+const BENT: [[usize; 2]; 3] = [[4, 8], [2, 4], [1, 2]];
 
 /// Beyond the tolerance, a fit within so many times of it shows what a larger one would give.
 const LARGER: f64 = 4.0;
@@ -297,14 +304,23 @@ fn completed(
     let polygon = &curve.polygon;
     let size = BezierPolygon::from_float(polygon).size();
     let (part, cut) = cut(polygon, span, OF_CUT * tolerance)?;
+    // The vertices of the segments that the half spans: a cut between knots adds many.
+    let most = 2 * ((span[1] - span[0]).ceil() as usize + polygon.degree());
     let image = image(&part, mirror)?;
     let [first, second] = half.in_order(&part, &image);
     let joint = joint_of(first, second);
+    let meets_itself = joint_of(second, first).meets(tolerance);
+    let mut bent = match meets_itself {
+        true => None,
+        false => bent((polygon, &part), (half, span), mirror, tolerance, progress)?,
+    };
+    let limit = (1.0 - OF_CUT) * tolerance;
     let whole = match check_joint(joint, part.size(), tolerance) {
         // Where the outer ends meet as well, the curve is one half of a closed outline.
         Ok(()) if is_outline([first, second], tolerance) => {
             closed([first, second], mirror, tolerance, progress)?
         }
+        _ if let Some(bent) = bent.take_if(|it| it.off <= limit) => bent,
         Ok(()) if polygon.is_periodic() => return Ok(corner(id, joint_of(second, first).angle)),
         Ok(()) => match merged([first, second], mirror, tolerance, &progress.part(0.0, 0.6)) {
             Err(OperationError::Merge(MergeError::NotFound)) => {
@@ -312,7 +328,7 @@ fn completed(
             }
             merged => {
                 let halves = (&part, [first, second]);
-                with_few_vertices(merged?, halves, mirror, tolerance, progress)?
+                with_few_vertices((merged?, most), halves, mirror, tolerance, progress)?
             }
         },
         Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
@@ -321,8 +337,13 @@ fn completed(
                 bridged([first, second], mirror, progress)?,
                 (&part, [first, second]),
             );
-            with_few_vertices(whole, halves, mirror, tolerance, progress)?
+            with_few_vertices((whole, most), halves, mirror, tolerance, progress)?
         }
+    };
+    let is_nearer = |bent: &Whole| whole.off > limit.max(bent.off);
+    let whole = match bent {
+        Some(bent) if is_nearer(&bent) => bent,
+        _ => whole,
     };
     let symmetric = whole.polygon;
     let deviation = whole.off + cut;
@@ -444,6 +465,55 @@ struct Whole {
 /// All of a half.
 const WHOLE: [f64; 2] = [0.0, 1.0];
 
+/// Bend the vertices of a half near the axis so that it goes on smoothly into its image; `None` for what has no plane.
+fn bent(
+    (polygon, part): (&FloatPolygon, &FloatPolygon),
+    (half, [from, to]): (Half, [f64; 2]),
+    mirror: &Mirror,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Option<Whole>, OperationError> {
+    if polygon.is_periodic() {
+        return Ok(None);
+    }
+    let mut nearest: Option<Whole> = None;
+    let tries = HALVED.iter().flat_map(|it| BENT.map(|reach| (*it, reach)));
+    for (halvings, [times, more]) in tries {
+        // The end of the cut is near the axis: it need not be exact.
+        let own = match [from, to] == [0.0, polygon.segments() as f64] {
+            true => polygon.clone(),
+            false => polygon.trimmed(from, to, halvings)?.polygon,
+        };
+        let reach = times * polygon.degree() + more;
+        let whole = match half.inner() {
+            End::Start => joined_to_image(&own, mirror, reach),
+            End::Finish => joined_to_image(&own.reversed(), mirror, reach).map(|it| it.reversed()),
+        };
+        let Some(whole) = whole else {
+            return Ok(None);
+        };
+        let off = SideDeviation::of_curve(part, &whole, progress);
+        let off = off.map_err(|_| OperationError::Cancelled)?;
+        let off = off.largest.distance();
+        if nearest.as_ref().is_none_or(|known| off < known.off) {
+            nearest = Some(Whole {
+                joint: [0.5 * whole.segments() as f64; 2],
+                kept: WHOLE,
+                polygon: whole,
+                method: "bend",
+                off,
+                bounded: false,
+                fault: None,
+                knuckle: None,
+            });
+        }
+        if off <= (1.0 - OF_CUT) * tolerance {
+            break;
+        }
+    }
+    Ok(nearest)
+}
+
 /// Merge a half with its image.
 fn merged(
     parts: [&FloatPolygon; 2],
@@ -562,18 +632,17 @@ fn bridged(
     })
 }
 
-/// A whole with many more vertices than both halves have, as a bridge refines them, as one curve with fewer if one is within
-/// the tolerance.
+/// A whole with more vertices than both halves have, as a cut or a bridge refines them, as one curve with fewer if one is
+/// within the tolerance.
 fn with_few_vertices(
-    whole: Whole,
+    (whole, most): (Whole, usize),
     halves: (&FloatPolygon, [&FloatPolygon; 2]),
     mirror: &Mirror,
     tolerance: f64,
     progress: &Progress,
 ) -> Result<Whole, OperationError> {
     let count = |polygon: &FloatPolygon| polygon.vertices().len();
-    let (part, _) = halves;
-    if count(&whole.polygon) <= 2 * (count(part) + part.degree()) || whole.fault.is_some() {
+    if count(&whole.polygon) <= most || whole.fault.is_some() {
         return Ok(whole);
     }
     let fitted = refitted(halves, mirror, tolerance, progress)?;

@@ -14,7 +14,7 @@ use super::chains::Screen;
 use super::keyboard::Steering;
 use super::pictures::PictureTextures;
 use super::theme::{self, STEP, Tokens};
-use super::{gizmo, grid, keyboard, labels, painting, widgets};
+use super::{gizmo, grid, keyboard, labels, painting, rulers, widgets};
 use crate::editor::{
     Button, Cursor, Editor, Input, Key, Layer, Look, Modifiers, PaneLayout, PaneView, view_name,
 };
@@ -360,7 +360,8 @@ impl Canvas {
         ui.painter_at(rect).rect_filled(rect, 0, tokens.outline);
         // Panels may have changed the scene.
         editor.refresh();
-        let has_grid = editor.sight().layers().shows(Layer::Grid);
+        let layers = editor.sight().layers();
+        let [has_grid, has_rulers] = [Layer::Grid, Layer::Guides].map(|it| layers.shows(it));
         let overlays = widgets::overlays(ui.ctx());
         self.pictures.begin_frame();
         for (place, pane) in editor.view().panes().enumerate() {
@@ -381,8 +382,8 @@ impl Canvas {
             // The grid shines through: on top of a picture it would hide edges.
             self.pictures.paint(&brush, &pane.scene.pictures);
             painting::paint(&brush, pane.scene);
-            if has_grid {
-                grid::paint_numbers(&brush);
+            if has_rulers {
+                rulers::paint(&brush);
             }
             painting::paint_hand(&brush, pane.scene);
             if pane.is_used {
@@ -427,7 +428,7 @@ fn name_ui(ui: &Ui, brush: &Brush<'_>, (place, pane): (usize, &PaneView)) {
         true => tokens.strong_text,
         false => tokens.faint_text,
     };
-    // Above the numbers of the grid.
+    // Above the ruler.
     let at = brush.rect.right_bottom() - vec2(2.0 * STEP, 6.0 * STEP);
     let font = theme::small_font();
     let size = labels::size(brush.painter, name, font.clone());

@@ -6,11 +6,13 @@ use eframe::egui::{
 
 use super::action::Action;
 use super::menu::{
-    ARRANGE, Entry, arrangements, command, compare, entries_ui, layers, references, views,
+    ARRANGE, Entry, Entry::Divider, arrangements, command, compare, entries_ui, layers, references,
+    views,
 };
 use super::menu_item::WIDTH;
 use super::shell::Shell;
-use crate::editor::{Command, Editor, Follow, Layer, MenuSubject, ToolKind};
+use crate::editor::{Command, Editor, Follow, Layer, MenuSubject, ToolKind, met_curves};
+use crate::geometry::Continuity;
 use crate::operations::{self, Inputs, Operation};
 
 /// The open context menu.
@@ -86,9 +88,24 @@ fn operation(operation: &'static Operation) -> Entry {
     command(Command::Operation(operation))
 }
 
+/// The matches of an end to the ends that it meets, in a menu of their own; where it meets none, the tool that matches it.
+fn matches(editor: &Editor) -> Entry {
+    let levels = |source| Continuity::ALL.map(|level| command(Command::Match(source, level)));
+    let matches: Vec<Entry> = met_curves(editor).into_iter().flat_map(levels).collect();
+    match matches.is_empty() {
+        true => tool(ToolKind::EndFit),
+        false => Entry::Submenu(
+            "Match",
+            [tool(ToolKind::EndFit), Divider]
+                .into_iter()
+                .chain(matches)
+                .collect(),
+        ),
+    }
+}
+
 /// The entries of a subject.
 fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
-    use Entry::Divider;
     match subject {
         MenuSubject::Vertex | MenuSubject::Leg => vec![
             command(Command::Delete),
@@ -112,7 +129,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
             command(Command::Fit),
         ],
         MenuSubject::End => vec![
-            tool(ToolKind::EndFit),
+            matches(editor),
             operation(&operations::extend::OPERATION),
             operation(&operations::trim::OPERATION),
             Divider,

@@ -169,12 +169,20 @@ pub fn target_ui(ui: &mut Ui, report: &EndFitReport, pixel: f64) -> Option<Event
         let actual = ui.add_enabled(report.matched.is_none(), Button::new("Use current end"));
         let actual = actual.on_hover_text("Set the target to where the end is now");
         let clear = ui.add_enabled(report.target.is_some(), Button::new("Clear"));
+        let across = report.axis.as_ref().and_then(|axis| {
+            let button = Button::new(format!("Perpendicular to {}", axis.name));
+            let response = ui.add_enabled(is_own, button);
+            let help = "Require a tangent perpendicular to the axis, and the end on it";
+            let target = EndFitAction::SetTarget(axis.target);
+            response.on_hover_text(help).clicked().then_some(target)
+        });
         let flip = IconButton::new(Icon::ArrowLeftRight, "Flip direction");
         let flip = flip.enabled(report.target_direction().is_some()).show(ui);
         [
             actual.clicked().then_some(EndFitAction::TargetActual),
             clear.clicked().then_some(EndFitAction::ClearTarget),
             flip.clicked().then_some(EndFitAction::TurnRound),
+            across,
         ]
     });
     let action = match_ui(ui, report).or(buttons.inner.into_iter().flatten().next());

@@ -1,11 +1,9 @@
-//! The grid, its axes and their numbers.
+//! The grid and its axes.
 
-use eframe::egui::{Align2, Stroke, pos2};
+use eframe::egui::Stroke;
 use glam::{DVec2, DVec3};
 
 use super::brush::Brush;
-use super::theme::{self, STEP};
-use super::{figures, labels};
 use crate::editor::{grid_steps, ground_grid};
 
 /// The most lines that are drawn one way: a guard, steps are chosen so that fewer suffice.
@@ -69,7 +67,7 @@ fn paint_model_axes(brush: &Brush<'_>) {
 }
 
 /// The visible multiples of a step on an axis, 0 across and 1 upwards, each with its place on the screen.
-fn lines(brush: &Brush<'_>, axis: usize, step: f64) -> Vec<(f64, f32)> {
+pub fn lines(brush: &Brush<'_>, axis: usize, step: f64) -> Vec<(f64, f32)> {
     let view = brush.screen.viewport.view_box();
     let (first, last) = (
         (view.low[axis] / step).ceil(),
@@ -89,61 +87,4 @@ fn line(brush: &Brush<'_>, axis: usize, place: f32, stroke: Stroke) {
         0 => brush.painter.vline(place, brush.rect.y_range(), stroke),
         _ => brush.painter.hline(brush.rect.x_range(), place, stroke),
     };
-}
-
-/// Write the numbers along the lower and the left edge, over the curves that pass there. Where
-/// they would touch, only every second, fifth, tenth … is written.
-pub fn paint_numbers(brush: &Brush<'_>) {
-    let (viewport, rect) = (brush.screen.viewport, brush.rect);
-    if viewport.orientation.axes().is_none() {
-        return;
-    }
-    let (_, major) = grid_steps(viewport);
-    let text = |value: f64| figures::to_resolution(value, major);
-    let width = |value: f64| labels::size(brush.painter, &text(value), theme::small_font()).x;
-    let widest = |lines: &[(f64, f32)]| {
-        let widths = lines.iter().map(|(value, _)| width(*value));
-        widths.fold(0.0, f32::max)
-    };
-    let number = |value: f64, at, align| {
-        let colour = brush.tokens.faint_text;
-        labels::paint(brush, at, align, &text(value), theme::small_font(), colour);
-    };
-    let [across, upwards] = [0, 1].map(|axis| lines(brush, axis, major));
-    let spacing = (major * viewport.scale) as f32;
-    let stride = stride(widest(&across) + 4.0 * STEP, spacing);
-    let left_numbers_end = rect.left() + 2.0 * STEP + widest(&upwards);
-    for (value, place) in across {
-        let half = 0.5 * width(value);
-        let is_clear = place - half > left_numbers_end && place + half < rect.right() - STEP;
-        if is_clear && is_multiple(value, major, stride) {
-            number(
-                value,
-                pos2(place, rect.bottom() - STEP),
-                Align2::CENTER_BOTTOM,
-            );
-        }
-    }
-    for (value, place) in upwards {
-        if place > rect.top() + 3.0 * STEP && place < rect.bottom() - 7.0 * STEP {
-            number(
-                value,
-                pos2(rect.left() + 1.5 * STEP, place),
-                Align2::LEFT_CENTER,
-            );
-        }
-    }
-}
-
-/// How many steps apart numbers must stand so that they don't touch.
-fn stride(width: f32, spacing: f32) -> i64 {
-    let strides = [1, 2, 5, 10, 20, 50, 100];
-    strides
-        .into_iter()
-        .find(|stride| *stride as f32 * spacing >= width)
-        .unwrap_or(1000)
-}
-
-fn is_multiple(value: f64, step: f64, stride: i64) -> bool {
-    (value / step).round() as i64 % stride == 0
 }

@@ -19,7 +19,7 @@ use super::theme::{ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
 use super::{picture_panel, reference_panel};
-use crate::document::{Curve, CurveId, Edit, Group, Reference};
+use crate::document::{Curve, CurveId, Edit, Group, GuideLine, Reference};
 use crate::editor::{Command, CurvatureDisplay, CurveReport, Editor, told};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
@@ -225,8 +225,37 @@ fn document_section_ui(ui: &mut Ui, editor: &mut Editor, open: bool) {
         widgets::section(ui, "Document", open, |ui| {
             let row = widgets::form_row(ui, "Unit", |ui| unit_ui(ui, editor));
             row.response.on_hover_text(Command::SetUnit(None).tooltip());
+            guides_ui(ui, editor);
         });
     });
+}
+
+/// Show the places of the guides.
+fn guides_ui(ui: &mut Ui, editor: &mut Editor) {
+    let guides = editor.document().guide_lines().to_vec();
+    let mut changed = None;
+    for (index, guide) in guides.iter().enumerate() {
+        let name = format!("Guide {}", guide.coordinate());
+        widgets::form_row(ui, &name, |ui| {
+            ui.spacing_mut().item_spacing.x = STEP;
+            let name = format!("guide {} {}", index + 1, guide.coordinate());
+            let field = NumberField::new(&name, guide.at, significant(guide.at, 6));
+            if let Some(at) = field.quantity(Quantity::Length).typed(ui) {
+                let mut moved = guides.clone();
+                moved[index] = GuideLine { at, ..*guide };
+                changed = Some(("Move guide", moved));
+            }
+            let name = format!("Remove guide {}", index + 1);
+            if IconButton::new(Icon::X, &name).show(ui).clicked() {
+                let mut others = guides.clone();
+                others.remove(index);
+                changed = Some(("Remove guide", others));
+            }
+        });
+    }
+    if let Some((label, guides)) = changed {
+        told(editor.apply(label, vec![Edit::SetGuideLines(guides)]));
+    }
 }
 
 /// The joints of the selected items, or of the document. They come and go while a curve is dragged: nothing but
@@ -298,9 +327,8 @@ fn symmetry_ui(ui: &mut Ui, editor: &mut Editor, (id, curve): (CurveId, &Curve))
     if response.on_hover_text(command.tooltip()).clicked() {
         told(editor.execute(command));
     }
-    let symmetry = curve.symmetry.into_iter();
-    let mirrors = symmetry.flat_map(|it| [Some(it.mirror()), it.second()]);
-    for [through, normal] in mirrors.flatten().filter_map(|it| it.plane()) {
+    let planes = curve.symmetry.into_iter().flat_map(|it| it.planes());
+    for [through, normal] in planes {
         let axis = normal.abs().to_array().iter().position(|it| *it == 1.0);
         let Some(axis) = axis else {
             widgets::caption(ui, "slanted axis");

@@ -11,7 +11,7 @@ use super::number_field::NumberField;
 use super::theme::{RADIUS, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{figures, gizmo, icons, keyboard};
-use crate::editor::{CombSettings, CombsOf, Command, Editor, Layer};
+use crate::editor::{CombSettings, CombsOf, Command, Editor, Layer, RULER};
 
 /// The side of a layer's switch.
 const SIDE: f32 = 28.0;
@@ -31,9 +31,11 @@ pub fn layer_strip_ui(
     commands: &mut Vec<Action>,
 ) {
     let right = gizmo::place(canvas).map_or(canvas.right(), |gizmo| gizmo.left());
-    let width = right - canvas.left() - 4.0 * STEP;
+    let width = right - canvas.left() - RULER as f32 - 3.0 * STEP;
     let is_narrow = width < Layer::ALL.len() as f32 * SIDE + COMB;
-    let place = (Align2::LEFT_TOP, canvas.min + Vec2::splat(2.0 * STEP));
+    // Beside the ruler.
+    let corner = canvas.min + vec2(RULER as f32 + STEP, 2.0 * STEP);
+    let place = (Align2::LEFT_TOP, corner);
     widgets::overlay(context, "layers", place, |ui| {
         let tokens = Tokens::of(ui);
         let frame = Frame::NONE

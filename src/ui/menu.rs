@@ -227,6 +227,8 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         command(Command::ToggleSnapping),
         command(Command::ToggleAlignment),
         command(Command::ToggleEdges),
+        command(Command::ToggleLayer(Layer::Guides)),
+        command(Command::RemoveGuides),
         command(Command::Follow(Follow::InHarmony)),
         command(Command::Follow(Follow::Softly)),
         command(Command::ToggleClosedFollow),

@@ -36,7 +36,7 @@ pub fn message_ui(
     let Some(message) = editor.message().cloned() else {
         return;
     };
-    let corner = canvas.left_bottom() + vec2(2.0 * STEP, -6.0 * STEP);
+    let corner = canvas.left_bottom() + vec2(6.0 * STEP, -6.0 * STEP);
     let place = (Align2::LEFT_BOTTOM, corner);
     let dismissed = widgets::overlay(context, "message", place, |ui| {
         let tokens = Tokens::of(ui);

@@ -68,6 +68,7 @@ mod plots;
 mod proposal;
 mod recovery;
 mod reference_panel;
+mod rulers;
 mod seconds;
 mod shell;
 mod side;

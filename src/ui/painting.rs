@@ -334,6 +334,7 @@ impl Brush<'_> {
         match mark {
             Mark::Guide(ends) => self.dashed_chain(ends, Stroke::new(1.0, tokens.float)),
             Mark::SymmetryAxis(ends) => self.axis_of_symmetry(*ends),
+            Mark::GuideLine(ends) => self.segment(*ends, Stroke::new(1.0, tokens.guide)),
             Mark::Ruler(segment) => self.ruler(*segment),
             Mark::SelectionBox([a, b]) => self.selection_box(*a, *b),
             Mark::NewVertex(at) => {

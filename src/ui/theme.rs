@@ -73,6 +73,8 @@ pub struct Tokens {
     pub clamped: Color32,
     /// The joints between segments.
     pub joints: Color32,
+    /// Guides.
+    pub guide: Color32,
     /// References: quieter than curves.
     pub reference: Color32,
     /// The evolute.
@@ -170,6 +172,7 @@ impl Tokens {
             float: pick(dark, [0xF5A524, 0xC27803]),
             clamped: pick(dark, [0x2DD4BF, 0x0F8F80]),
             joints: pick(dark, [0x94A3B8, 0x64748B]),
+            guide: pick(dark, [0x3A8FA3, 0x2B8A9E]),
             reference: pick(dark, [0x94A3B8, 0x64748B]),
             evolute: pick(dark, [0xA78BFA, 0x6D4AE0]),
             comb,
@@ -203,6 +206,7 @@ impl Tokens {
             "comb" => self.comb,
             "target" => self.target,
             "joints" => self.joints,
+            "guide" => self.guide,
             "rising" => self.rising,
             "good" => self.good,
             _ => self.text,

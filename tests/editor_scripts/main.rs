@@ -27,6 +27,7 @@ mod fitting;
 mod following;
 mod generating;
 mod grouping;
+mod guide_lines;
 mod guides;
 mod harmony;
 mod importing;

@@ -801,6 +801,7 @@ fn vertex_tools_on_a_source_keep_the_matched_place_and_the_locks() {
         };
         script.editor.look(Look::Canvas(DVec2::new(1000.0, 700.0)));
         script.check();
+        script.command(Command::ZoomOut);
         let before = script.editor.document().clone();
         let [old, follower] = [0, 1].map(|index| curve(&script, ids[index]));
         let point = old.polygon.point(6.25);

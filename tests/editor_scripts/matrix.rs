@@ -217,7 +217,9 @@ fn places(tool: ToolKind) -> Vec<Place> {
         Place::Curve(0.31),
         Place::Clamped(1),
         Place::Tooth(0),
-        Place::At(DVec2::new(6.0, 6.0)),
+        Place::At(DVec2::new(20.0, 6.0)),
+        // On a ruler.
+        Place::At(DVec2::new(8.0, 300.0)),
     ];
     match tool {
         ToolKind::EndFit => places.extend([

@@ -303,7 +303,7 @@ fn what_works_on_curves_leaves_pictures_alone() {
     script.command(Command::FitAll);
     script.tool(ToolKind::Select);
     script.key(Key::Escape);
-    script.drag(DVec2::new(2.0, 2.0), DVec2::new(998.0, 698.0));
+    script.drag(DVec2::new(17.0, 2.0), DVec2::new(998.0, 698.0));
     assert!(!script.editor.hand().selection().items().contains(&id));
     script.check();
 }

@@ -89,9 +89,9 @@ fn shift_adds_to_the_selection_and_a_box_takes_what_is_inside() {
     assert_eq!(script.selected(), [2]);
     script.modifiers(Modifiers::NONE);
     // A box around the whole canvas takes everything.
-    script.drag(DVec2::new(1.0, 1.0), DVec2::new(999.0, 699.0));
+    script.drag(DVec2::new(17.0, 1.0), DVec2::new(999.0, 699.0));
     assert_eq!(script.selected().len(), 10);
-    script.click(DVec2::new(3.0, 3.0));
+    script.click(DVec2::new(30.0, 3.0));
     assert!(script.selected().is_empty());
 }
 
@@ -230,6 +230,6 @@ fn a_locked_curve_cannot_be_dragged_and_says_so() {
 fn a_box_takes_nothing_of_a_hidden_polygon() {
     let mut script = Script::example("arc");
     script.command(Command::ToggleLayer(Layer::Float));
-    script.drag(DVec2::new(1.0, 1.0), DVec2::new(999.0, 699.0));
+    script.drag(DVec2::new(17.0, 1.0), DVec2::new(999.0, 699.0));
     assert!(script.selected().is_empty());
 }

@@ -108,7 +108,7 @@ fn shift_click_takes_curves_and_references_and_a_click_takes_one_alone() {
 #[test]
 fn a_box_takes_vertices_of_selected_curves_and_curves_where_none_is_selected() {
     let (mut script, [arc, other, short, circle]) = four();
-    let everywhere = [DVec2::splat(10.0), DVec2::new(990.0, 690.0)];
+    let everywhere = [DVec2::splat(27.0), DVec2::new(990.0, 690.0)];
     boxed(&mut script, &everywhere);
     assert_eq!(script.selected_of(arc).len(), 10);
     assert!(script.selected_of(other).is_empty());
@@ -153,7 +153,7 @@ fn a_box_leaves_out_what_is_locked_or_hidden() {
     lock(&mut script, other);
     hide(&mut script, short);
     script.command(Command::SelectNone);
-    boxed(&mut script, &[DVec2::splat(10.0), DVec2::new(990.0, 690.0)]);
+    boxed(&mut script, &[DVec2::splat(27.0), DVec2::new(990.0, 690.0)]);
     assert_eq!(selected(&script), [arc, circle]);
 }
 
@@ -161,7 +161,7 @@ fn a_box_leaves_out_what_is_locked_or_hidden() {
 fn a_curve_alone_needs_no_selection_for_a_box() {
     let mut script = Script::example("arc");
     script.command(Command::SelectNone);
-    boxed(&mut script, &[DVec2::splat(10.0), DVec2::new(990.0, 690.0)]);
+    boxed(&mut script, &[DVec2::splat(27.0), DVec2::new(990.0, 690.0)]);
     assert_eq!(script.selected().len(), 10);
 }
 

@@ -143,7 +143,7 @@ fn each_half_is_completed_by_its_image() {
 #[test]
 fn a_curve_on_one_side_is_joined_to_its_image() {
     // It nearly reaches the axis, or leaves a gap: one curve is fitted in the time that there is, or a bridge remains.
-    let methods: [(f64, &[&str]); 2] = [(5e-4, &["merge"]), (0.15, &["fit", "bridge"])];
+    let methods: [(f64, &[&str]); 2] = [(5e-4, &["bend", "merge"]), (0.15, &["fit", "bridge"])];
     for (less, methods) in methods {
         let polygon = quarter(less);
         assert!(polygon.end_jet(End::Finish).point.x > 0.0);
@@ -475,4 +475,54 @@ fn a_traced_half_that_meets_the_axis_nearly_squarely_becomes_whole() {
     assert!(off.largest.distance() < 2.5e-3 * half.size());
     let width = whole.end_jet(End::Finish).point.x - whole.end_jet(End::Start).point.x;
     assert!(width.abs() > 20.0, "{width}");
+}
+
+/// Half of a bottle that meets the y axis squarely.
+const BOTTLE: [(f64, f64); 14] = [
+    (-24.0, 2.0),
+    (-12.0, 0.7),
+    (0.0, 0.0),
+    (12.0, 0.7),
+    (24.0, 2.0),
+    (33.0, 8.0),
+    (38.0, 20.0),
+    (39.0, 36.0),
+    (35.0, 54.0),
+    (28.0, 70.0),
+    (22.0, 84.0),
+    (20.0, 97.0),
+    (23.0, 109.0),
+    (28.0, 118.0),
+];
+
+#[test]
+fn a_half_drawn_beside_the_axis_keeps_its_vertices() {
+    // Farther beyond the axis the half is no longer square to it: segments are halved there.
+    let near = [0.0, 0.01, -0.01, 0.03, -0.03].map(|beside| (beside, 0.02, 28));
+    let far = [(-0.3, 0.05, 41), (-1.0, 0.15, 41)];
+    for (beside, within, most) in near.into_iter().chain(far) {
+        let vertices = BOTTLE.map(|(x, y)| (x + beside, y));
+        let half = FloatPolygon::planar(5, &vertices).expect("a polygon");
+        for half in [half.reversed(), half] {
+            let runner = Runner::of(half.clone());
+            let given = ("tolerance", Value::List(vec![within]));
+            let (outcome, curves) = runner.done("make-symmetric", &[given]);
+            assert!(outcome.reached, "{beside}: {:?}", outcome.remarks);
+            let whole = &curves[0].polygon;
+            check_is_symmetric(whole);
+            assert!(
+                whole.vertices().len() <= most,
+                "{beside}: {}",
+                whole.vertices().len()
+            );
+            let ends = End::BOTH.map(|end| whole.end_jet(end).point);
+            let outer = half.vertices()[0].y < half.vertices()[13].y;
+            let outer = if outer { End::Finish } else { End::Start };
+            let outer = half.end_jet(outer).point;
+            assert!(
+                ends.iter().any(|end| end.distance(outer) < within),
+                "{beside}"
+            );
+        }
+    }
 }

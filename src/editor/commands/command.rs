@@ -7,6 +7,7 @@ use crate::editor::hand::tools::{Arrangement, ToolKind};
 use crate::editor::same_shape::KEEP_SHAPE;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::{CombsOf, CurvatureDisplay, NamedView, PaneLayout};
+use crate::geometry::Continuity;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{KINDS, ReferenceKind};
 use crate::operations::{self, Operation};
@@ -70,6 +71,8 @@ pub enum Command {
     GoToFeature,
     /// Compare the active curve with another curve or reference in every plot, or with none.
     Compare(Option<CurveId>),
+    /// Let the end of the active curve that the end-fit tool corrects follow another curve's end that it meets.
+    Match(CurveId, Continuity),
     /// Show or hide a layer.
     ToggleLayer(Layer),
     /// Show the bands of rising and falling curvature on the canvas, or only under the plot.
@@ -84,6 +87,8 @@ pub enum Command {
     ToggleAlignment,
     /// Let points that are drawn snap to edges of pictures, or not.
     ToggleEdges,
+    /// Remove all guides.
+    RemoveGuides,
     /// Let the neighbours of dragged vertices follow, or not.
     Follow(Follow),
     /// Let the other closed vertices follow a dragged one, or stay.
@@ -200,6 +205,7 @@ impl Command {
             Self::ToggleSnapping,
             Self::ToggleAlignment,
             Self::ToggleEdges,
+            Self::RemoveGuides,
             Self::ToggleKeeping,
         ]);
         all.extend(Follow::ALL.map(Self::Follow));
@@ -243,6 +249,7 @@ impl Command {
             Self::GoToFeature => "Go to feature",
             Self::Compare(None) => "Compare with nothing",
             Self::Compare(Some(_)) => "Compare with another curve",
+            Self::Match(_, level) => return format!("Match up to {}", level.name()),
             Self::ToggleLayer(layer) => layer.label(),
             Self::ToggleBands => "Feature bands on the canvas",
             Self::ShowCurvature(display) => display.label(),
@@ -250,6 +257,7 @@ impl Command {
             Self::ToggleSnapping => "Snapping",
             Self::ToggleAlignment => "Alignment lines",
             Self::ToggleEdges => "Edges of pictures",
+            Self::RemoveGuides => "Remove guides",
             Self::Follow(follow) => follow.label(),
             Self::ToggleClosedFollow => "Closed vertices follow",
             Self::ToggleKeepShape => KEEP_SHAPE,
@@ -305,6 +313,10 @@ impl Command {
             Self::GoToFeature => "Show the surroundings of the feature that is chosen in the list",
             Self::Compare(None) => "Show the plots of the active curve alone",
             Self::Compare(Some(_)) => "Show the plots of this curve beside those of the active one",
+            Self::Match(_, level) => {
+                let label = level.label();
+                return format!("Let the end follow the other curve here, up to the {label}");
+            }
             Self::ToggleLayer(layer) => layer.row().help,
             Self::ToggleBands => {
                 "Show the bands of rising and falling curvature along the curve, or only under the plot"
@@ -317,6 +329,7 @@ impl Command {
             Self::ToggleEdges => {
                 "Snap drawn points to the strongest edge of a picture near the pointer"
             }
+            Self::RemoveGuides => "Remove all guides; to remove one, drag it onto a ruler",
             Self::ToggleAlignment => {
                 "While snapping is on, snap to lines through vertices, ends and their tangents"
             }

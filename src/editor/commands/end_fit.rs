@@ -179,6 +179,7 @@ impl EndFitAction {
         let set = |fixed: bool, labels: [&'static str; 2]| labels[usize::from(fixed)];
         match self {
             Self::TargetActual => ("Set target", Some(actual(Continuity::G1))),
+            Self::SetTarget(target) => ("Set target", Some(target)),
             Self::SetPoint(point) => ("Set target point", Some(EndTarget { point, ..target })),
             Self::SetDirection(Some(direction)) => {
                 let direction = Some(direction);

@@ -8,6 +8,7 @@ use crate::editor::commands::arranging::arrange;
 use crate::editor::commands::command::Command;
 use crate::editor::commands::deleting;
 use crate::editor::commands::drawing::end_drawing;
+use crate::editor::commands::end_matches;
 use crate::editor::commands::items::{self, Change};
 use crate::editor::commands::locking;
 use crate::editor::commands::references::{addition, new_formula, new_reference};
@@ -196,6 +197,14 @@ impl Editor {
                 select_all(&mut self.hand.selection, self.workspace.document())?;
             }
             Command::Arrange(arrangement) => return arrange(self, arrangement),
+            Command::Match(source, level) => {
+                let edits = end_matches::edits(self, source, level).unwrap_or_default();
+                return self.apply("Match end", edits);
+            }
+            Command::RemoveGuides => {
+                let edits = vec![Edit::SetGuideLines(Vec::new())];
+                return self.apply(&command.label(), edits);
+            }
             Command::SelectNone => self.hand.selection.set_items([]),
             Command::Tool(tool) => {
                 let ended = end_drawing(self);

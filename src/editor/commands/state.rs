@@ -1,9 +1,10 @@
 //! What menus and buttons show of a command now.
 
 use super::command::Command;
+use super::end_matches;
 use super::items;
 use super::locking;
-use crate::document::CurveId;
+use crate::document::{CurveId, cut};
 use crate::editor::Editor;
 use crate::editor::operating::OperationInProgress;
 
@@ -43,6 +44,8 @@ impl Command {
                 let before = editor.document().unit();
                 before.is_some_and(|before| before != unit)
             }
+            Command::Match(source, level) => end_matches::edits(editor, source, level).is_some(),
+            Command::RemoveGuides => !editor.document().guide_lines().is_empty(),
             Command::GoToFeature => editor.view.chosen_feature().is_some(),
             Command::Compare(other) => active && other.is_none_or(can_compare),
             // A drag moves vertices in the plane of this view.
@@ -74,6 +77,7 @@ impl Command {
                 "select a curve that is not locked".to_owned()
             }
             Command::Operation(operation) => editor.input_of(operation).err()?.to_string(),
+            Command::RemoveGuides => "there are none; drag one from a ruler".to_owned(),
             Command::GoToFeature => "choose a feature in its list first".to_owned(),
             _ => return None,
         };
@@ -90,6 +94,9 @@ impl Command {
             Command::Compare(other) => {
                 let compared = editor.sight().compared().filter(|id| can_compare(*id));
                 Some(compared == other)
+            }
+            Command::Match(source, level) => {
+                Some(end_matches::level(editor, source) == Some(level))
             }
             Command::ToggleBands => Some(!editor.view.bands_only_plotted),
             Command::ShowCombs(of) => Some(editor.view.combs_of == of),
@@ -147,6 +154,10 @@ impl Command {
         }
         match self {
             Command::Compare(Some(id)) => editor.document().name(id).map(str::to_owned),
+            Command::Match(source, level) => {
+                let name = editor.document().name(source);
+                name.map(|name| format!("Match to {}, {}", cut(name), level.name()))
+            }
             Command::Undo => undo_label(editor).map(named),
             Command::Redo => redo_label(editor).map(named),
             Command::ToggleVerticesLocked => {

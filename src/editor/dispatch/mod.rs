@@ -201,13 +201,12 @@ impl Editor {
         {
             return self.ask_for_menu(MenuOf::Place(at));
         }
-        let begins =
-            |tools: &mut Tools, context: &Context<'_>| tools.used().begins(gesture, context);
+        let begins = |tools: &mut Tools, context: &Context<'_>| tools.begins(gesture, context);
         if previews && self.with_tools(begins) {
             // The gesture is about the document without the preview, which ends now.
             self.operating().interrupt();
         }
-        let effects = self.with_tools(|tools, context| tools.used_mut().gesture(gesture, context));
+        let effects = self.with_tools(|tools, context| tools.gesture(gesture, context));
         self.take_effects(effects, repeats);
     }
 

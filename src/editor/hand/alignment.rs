@@ -1,11 +1,11 @@
-//! Alignment lines: level, upright, along and across an end. A dragged place keeps to one near it, or to the crossing of
-//! two.
+//! Alignment lines: guides, level, upright, along and across an end. A dragged place keeps to one near it, or to the
+//! crossing of two.
 
 use glam::{DVec2, DVec3};
 
 use super::snapping::{Carried, Snap};
 use crate::document::{Curve, CurveId, Document};
-use crate::editor::view::symmetry_axis::symmetry_axes;
+use crate::editor::view::plane_lines::{PlaneLine, symmetry_axes};
 use crate::editor::view::viewport::Viewport;
 use crate::geometry::End;
 
@@ -54,20 +54,32 @@ impl Line {
     }
 }
 
-/// Find what a dragged place of the view plane lines up with: the vertices of the `active` curve and its axis of symmetry,
-/// the ends of all visible curves with their tangents and normals, targets and the origin, as far as they are on the canvas
-/// and not `carried`; a single vertex also with the legs beside it.
+/// What a dragged place can line up with.
+#[derive(Clone, Copy)]
+pub struct Aligning<'a> {
+    /// The document as it was when the drag began.
+    pub document: &'a Document,
+    /// The active curve.
+    pub active: Option<CurveId>,
+    /// What goes along, and does not attract.
+    pub carried: &'a Carried,
+    /// How the model is seen.
+    pub viewport: &'a Viewport,
+    /// Whether lines through points attract.
+    pub lines: bool,
+    /// Whether guides attract.
+    pub guides: bool,
+}
+
+/// Find what a dragged place of the view plane lines up with: guides, the vertices of the active curve and its axis of
+/// symmetry, the ends of all visible curves with their tangents and normals, targets and the origin, as far as they are on
+/// the canvas and not carried; a single vertex also with the legs beside it.
 ///
 /// `None` if no line is near, or the view is turned against the model, where no axis is level.
-pub fn line_up(
-    place: DVec2,
-    document: &Document,
-    active: Option<CurveId>,
-    carried: &Carried,
-    viewport: &Viewport,
-) -> Option<Snap> {
+pub fn line_up(place: DVec2, aligning: &Aligning<'_>) -> Option<Snap> {
+    let viewport = aligning.viewport;
     viewport.orientation.axes()?;
-    let mut near = lines_near(place, document, active, carried, viewport);
+    let mut near = aligning.lines_near(place);
     let off = |line: &Line| line.foot(place).distance(place);
     near.sort_by(|a, b| off(a).total_cmp(&off(b)));
     let first = near.first()?;
@@ -87,14 +99,58 @@ pub fn line_up(
     })
 }
 
+/// Find the line of a direction that a dragged one lines up with, near a place of it.
+pub fn line_along(place: DVec2, direction: DVec2, aligning: &Aligning<'_>) -> Option<Snap> {
+    let direction = exact(direction);
+    let near = aligning.lines_near(place).into_iter();
+    let near = near.filter(|line| line.direction == direction);
+    let off = |line: &Line| line.foot(place).distance(place);
+    let line = near.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    let at = line.foot(place);
+    Some(Snap {
+        point: aligning.viewport.grounded(at),
+        name: line.name,
+        lines: vec![[line.from, at]],
+    })
+}
+
+impl Aligning<'_> {
+    /// Guides come first: of lines in one place they are named.
+    fn lines_near(&self, place: DVec2) -> Vec<Line> {
+        let guides = self.document.guide_lines().iter().enumerate();
+        let guides = guides.filter(|(index, _)| self.guides && self.carried.guide != Some(*index));
+        let guides = guides.filter_map(|(_, it)| PlaneLine::seen(it.plane(), self.viewport));
+        let mut lines: Vec<Line> = guides
+            .filter_map(|it| self.line_of(it, place, "On the guide"))
+            .collect();
+        if self.lines {
+            lines.extend(lines_near(place, self));
+        }
+        lines
+    }
+
+    /// A line that crosses all that is seen, if a place is near.
+    fn line_of(&self, line: PlaneLine, place: DVec2, name: &str) -> Option<Line> {
+        // Drawn from where it is near.
+        let from = line.foot(place);
+        let is_near = from.distance(place) <= REACH * self.viewport.pixel();
+        is_near.then(|| Line {
+            from,
+            direction: exact(line.along),
+            name: name.to_owned(),
+        })
+    }
+}
+
 /// The lines near a place through points on the canvas. Only they get names, as there may be many points.
-fn lines_near(
-    place: DVec2,
-    document: &Document,
-    active: Option<CurveId>,
-    carried: &Carried,
-    viewport: &Viewport,
-) -> Vec<Line> {
+fn lines_near(place: DVec2, aligning: &Aligning<'_>) -> Vec<Line> {
+    let Aligning {
+        document,
+        active,
+        carried,
+        viewport,
+        ..
+    } = *aligning;
     let reach = REACH * viewport.pixel();
     let mut lines = Vec::new();
     let mut add = |point: DVec3, directions: &[(DVec2, &str)], name: &dyn Fn() -> String| {
@@ -160,21 +216,10 @@ fn lines_near(
         lines.extend(legs.filter(|line| line.foot(place).distance(place) <= reach));
     }
     let symmetric = active.and_then(|id| document.curve(id));
-    let axes = symmetric.into_iter().flat_map(|curve| {
+    if let Some(curve) = symmetric {
+        let name = format!("On the axis of {}", curve.name);
         let axes = symmetry_axes(curve, viewport);
-        axes.map(|axis| (axis, format!("On the axis of {}", curve.name)))
-    });
-    for ([through, along], name) in axes {
-        let axis = Line {
-            from: through,
-            direction: exact(along),
-            name,
-        };
-        // Drawn from where it is near.
-        let from = axis.foot(place);
-        if from.distance(place) <= reach {
-            lines.push(Line { from, ..axis });
-        }
+        lines.extend(axes.filter_map(|axis| aligning.line_of(axis, place, &name)));
     }
     lines
 }
@@ -245,13 +290,15 @@ mod tests {
             ..Viewport::default()
         };
         let place = place + by * viewport.pixel();
-        line_up(
-            place,
-            &document,
-            document.ids().next(),
-            &Carried::default(),
-            &viewport,
-        )
+        let aligning = Aligning {
+            document: &document,
+            active: document.ids().next(),
+            carried: &Carried::default(),
+            viewport: &viewport,
+            lines: true,
+            guides: true,
+        };
+        line_up(place, &aligning)
     }
 
     #[test]
@@ -290,7 +337,15 @@ mod tests {
             vertices: [(id, 2)].into(),
             ..Carried::default()
         };
-        let at = |x, y| line_up(DVec2::new(x, y), &document, None, &carried, &viewport);
+        let aligning = Aligning {
+            document: &document,
+            active: None,
+            carried: &carried,
+            viewport: &viewport,
+            lines: true,
+            guides: true,
+        };
+        let at = |x, y| line_up(DVec2::new(x, y), &aligning);
         // The mean of vertices 1 and 3.
         let middle = at(25.2, 10.3).expect("a crossing");
         assert!(middle.point.distance(DVec3::new(25.0, 10.0, 0.0)) < 1e-12);

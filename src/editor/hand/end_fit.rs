@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::analysis::CurveAnalysis;
 use crate::document::{Curve, CurveId, Document, EndMatch, MatchPlace};
+use crate::editor::hand::end_axis::EndAxis;
 use crate::editor::reply::Reply;
 use crate::editor::view::hit::REACH;
 use crate::editor::view::viewport::Viewport;
@@ -41,6 +42,8 @@ pub struct EndFitReport {
     pub actual: EndTarget,
     /// The target as a whole; `None` until it is set.
     pub target: Option<EndTarget>,
+    /// The axis on which the end lies.
+    pub axis: Option<EndAxis>,
     /// Step 3: the difference vector; 0 where it is only rounding.
     pub difference: DVec3,
     /// Step 3: the difference angle, in radians.
@@ -166,6 +169,8 @@ pub enum EndFitAction {
     SetNormal(Option<DVec3>),
     /// Type the slope of the target's curvature, or free it.
     SetSlope(Option<f64>),
+    /// Set the whole target.
+    SetTarget(EndTarget),
     /// Remove the target and the match.
     ClearTarget,
     /// Pick the target from another curve by the next click: from an end, or any point.
@@ -278,6 +283,7 @@ impl EndFitSettings {
             vertices: polygon.vertices().len(),
             actual: Continuity::G3.target(&jet, planar),
             target,
+            axis: EndAxis::of(document, id, self.end),
             difference: difference.map_or(DVec3::ZERO, |difference| {
                 let far = jet.point.abs().max_element().max(size);
                 above(difference.vector, ROUNDING * far)

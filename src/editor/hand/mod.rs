@@ -4,6 +4,7 @@ pub(in crate::editor) mod alignment;
 mod clean_step;
 mod cycle;
 mod drawing_plane;
+mod end_axis;
 pub mod end_fit;
 mod end_fit_report;
 mod entering;

@@ -30,6 +30,8 @@ pub struct Carried {
     pub target: Option<(CurveId, End)>,
     /// The reference, or the curve whose points move.
     pub item: Option<CurveId>,
+    /// The guide, by its place among the document's.
+    pub guide: Option<usize>,
     /// Whether it does not lie on the ground, whose grid it only seems to meet where the view is turned.
     pub is_off_ground: bool,
 }
@@ -197,6 +199,17 @@ pub fn snap_to_grid(place: DVec2, viewport: &Viewport) -> Option<Snap> {
     };
     let near = viewport.flatten(point).distance(place) <= GRID_REACH * viewport.pixel();
     (near && point.is_finite()).then(|| Snap::to(point, "Grid"))
+}
+
+/// Find the grid's minor line along an axis that a line through a place of the view plane snaps to, if one is near.
+pub fn snap_to_grid_line(place: DVec2, along: DVec2, viewport: &Viewport) -> Option<Snap> {
+    viewport.orientation.axes()?;
+    let (minor, _) = grid_steps(viewport);
+    let axis = DVec2::AXES.iter().position(|it| it.dot(along) == 0.0)?;
+    let mut on_grid = place;
+    on_grid[axis] = (place[axis] / minor).round() * minor;
+    let near = (on_grid - place).length() <= GRID_REACH * viewport.pixel();
+    (near && on_grid.is_finite()).then(|| Snap::to(viewport.grounded(on_grid), "Grid"))
 }
 
 /// Constrain a movement to the nearer axis.

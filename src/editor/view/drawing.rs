@@ -50,7 +50,7 @@ impl View {
         }
         let sight = self.sight(shown);
         scene.marks = std::mem::take(&mut overlay.marks);
-        scene.marks.extend(sight.symmetry_marks());
+        scene.marks.extend(sight.line_marks());
         scene.marks.extend(sight.flow_marks());
         if !overlay.measures_points {
             scene.marks.extend(sight.deviation_marks());

@@ -23,6 +23,8 @@ pub enum Layer {
     SafeRegion,
     /// Where ends of curves meet.
     Joints,
+    /// Guides, and the rulers from which they are dragged.
+    Guides,
 }
 
 /// A row of the table of layers. Menu, strip of switches, keys, legend and settings read it.
@@ -109,6 +111,13 @@ static LAYERS: &[LayerRow] = &[
         ["merge", "joints"],
     )
     .help("Show or hide where ends of curves meet, with the continuity that holds"),
+    row(
+        Layer::Guides,
+        "guides",
+        "Guides and rulers",
+        ["pencil-ruler", "guide"],
+    )
+    .help("Show or hide guides, which points snap to; drag new ones from the rulers"),
 ];
 
 /// A layer that is shown, has no sample in the legend, and the usual help.

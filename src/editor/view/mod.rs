@@ -31,16 +31,17 @@ mod pane;
 mod pane_layout;
 mod panes;
 mod picture_edges;
+pub(in crate::editor) mod plane_lines;
 mod plot_chain;
 mod plot_marks;
 mod plot_scene;
 mod plotting;
+pub(in crate::editor) mod rulers;
 mod sample_chain;
 pub(in crate::editor) mod scene;
 pub(in crate::editor) mod shown;
 pub(in crate::editor) mod sight;
 mod sleeve;
-pub(in crate::editor) mod symmetry_axis;
 #[allow(clippy::module_inception)]
 mod view;
 pub(in crate::editor) mod viewport;
@@ -63,6 +64,7 @@ pub use outline::{Bounds, GAP, ViewBox};
 pub use pane_layout::PaneLayout;
 pub use panes::PaneView;
 pub use plot_scene::{PlotBand, PlotKind, PlotScene};
+pub use rulers::RULER;
 pub use scene::{
     ClampedMark, CurveScene, DragReadout, GuideLabel, GuideScene, HoverScene, Legs, LossArrow,
     Mark, MeasuredFigure, PictureScene, Scene, VertexMark,

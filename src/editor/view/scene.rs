@@ -183,6 +183,8 @@ pub enum Mark {
     Guide([DVec2; 2]),
     /// The axis of a symmetric curve.
     SymmetryAxis([DVec2; 2]),
+    /// A guide.
+    GuideLine([DVec2; 2]),
     /// A line that measures.
     Ruler([DVec2; 2]),
     /// The figures of a measurement, beside a place.

@@ -21,6 +21,7 @@ pub mod joint_correction;
 pub mod kept_jets;
 pub mod least_change;
 mod least_squares;
+pub mod mirrored_half;
 pub mod near_end;
 pub(super) mod near_points;
 mod objective;

@@ -15,7 +15,7 @@ use crate::geometry::{ClampedPolygon, PolygonKind};
 use crate::io::error::WriteError;
 use crate::io::exchange;
 use crate::io::exchange::drawing::{Conic, Nurbs, Shape};
-use crate::io::format::{ExportRow, Format, Writing};
+use crate::io::format::{ExportRow, FileUnit, Format, Writing};
 use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
 
@@ -36,7 +36,7 @@ pub static DXF: Format = Format {
     rewrite: None,
     read_chosen: None,
     draw: Some(exchange::dxf::read),
-    is_unitless: false,
+    file_unit: FileUnit::Optional,
     holds_documents: false,
     exports: &[ExportRow {
         label: "Export DXF…",

@@ -7,7 +7,7 @@ use super::{brep, curve_json, glif, iges, obj, step, svg, threedm};
 use crate::document::Document;
 use crate::geometry::PolygonKind;
 use crate::io::error::WriteError;
-use crate::io::format::{ExportRow, Format, Writing};
+use crate::io::format::{ExportRow, FileUnit, Format, Writing};
 use crate::io::loss::{Loss, LossReport};
 
 /// Writes a drawing of some name.
@@ -22,7 +22,7 @@ const NONE: Format = Format {
     write: None,
     write_back: None,
     rewrite: None,
-    is_unitless: false,
+    file_unit: FileUnit::Optional,
     holds_documents: false,
     exports: &[],
 };
@@ -31,6 +31,7 @@ const NONE: Format = Format {
 pub static STEP: Format = Format {
     name: "STEP",
     extensions: &["step", "stp", "p21"],
+    file_unit: FileUnit::Always,
     draw: Some(step::read),
     write: Some(|document, writing, losses| {
         written(document, writing, losses, joined, |drawing, name| {
@@ -51,6 +52,7 @@ pub static STEP: Format = Format {
 pub static STEP_AP242: Format = Format {
     name: "STEP AP242",
     extensions: &["ap242"],
+    file_unit: FileUnit::Always,
     draw: Some(step::read),
     write: Some(|document, writing, losses| {
         written(document, writing, losses, joined, |drawing, name| {
@@ -64,6 +66,7 @@ pub static STEP_AP242: Format = Format {
 pub static IGES: Format = Format {
     name: "IGES",
     extensions: &["igs", "iges"],
+    file_unit: FileUnit::Always,
     draw: Some(iges::read),
     write: Some(|document, writing, losses| {
         written(document, writing, losses, joined, iges::write)
@@ -82,6 +85,7 @@ pub static IGES: Format = Format {
 pub static THREEDM: Format = Format {
     name: "3DM",
     extensions: &["3dm"],
+    file_unit: FileUnit::Always,
     draw: Some(threedm::read),
     write: Some(|document, writing, losses| {
         written(
@@ -106,6 +110,7 @@ pub static THREEDM: Format = Format {
 pub static SVG: Format = Format {
     name: "SVG",
     extensions: &["svg"],
+    file_unit: FileUnit::Always,
     draw: Some(svg::read),
     write: Some(|document, writing, losses| {
         let manner = Manner {
@@ -138,7 +143,7 @@ pub static GLIF: Format = Format {
     name: "GLIF",
     extensions: &["glif"],
     draw: Some(glif::read),
-    is_unitless: true,
+    file_unit: FileUnit::None,
     write: Some(|document, writing, losses| {
         let manner = Manner {
             written: Written::Cubics(writing.tolerance),
@@ -173,6 +178,7 @@ pub static OBJ: Format = Format {
 pub static BREP: Format = Format {
     name: "BREP",
     extensions: &["brep", "brp"],
+    file_unit: FileUnit::Always,
     draw: Some(brep::read),
     write: Some(|document, writing, losses| {
         written(document, writing, losses, none, |drawing, name| {

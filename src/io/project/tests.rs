@@ -4,7 +4,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::document::{Colour, Curve, EndTargets, Extras, MatchPlace, Reference};
+use crate::document::{Colour, Curve, EndTargets, Extras, GuideLine, MatchPlace, Reference};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{Continuity, End, FloatPolygon, MAX_MAGNITUDE};
@@ -744,4 +744,26 @@ fn brackets_without_end_are_told_by_their_place() {
     let expected = format!("line 1, column {count}: EOF while parsing a list");
     assert_eq!(error(&"[".repeat(count)), expected);
     assert!(error("[1, 2]").starts_with("this is not a Batten project"));
+}
+
+#[test]
+fn guides_are_kept_by_coordinate_and_unknown_to_version_1() {
+    let lines = [(0, 12.5), (1, -0.1), (1, 80.0), (2, 1e-300)];
+    let lines = lines.map(|(axis, at)| GuideLine { axis, at });
+    let document = Document::default().with_guide_lines(lines);
+    let bytes = PROJECT.write(&document, None).unwrap().bytes;
+    let text = String::from_utf8(bytes).unwrap();
+    assert!(text.contains("\"version\": 2"), "{text}");
+    let reading = read(text.as_bytes()).unwrap();
+    assert!(reading.remarks.is_empty(), "{}", reading.remarks);
+    assert!(reading.into_document().unwrap().is_same(&document));
+    // Older programs keep the key.
+    let older = read(text.replace("\"version\": 2", "\"version\": 1").as_bytes()).unwrap();
+    assert!(older.extras.iter().any(|(key, _)| key == "guides"));
+    let more = text.replace("\"guides\": {", "\"guides\": {\"w\": [1],");
+    let remarks = read(more.as_bytes()).unwrap().remarks.to_string();
+    assert_eq!(
+        remarks,
+        "the project's key “w” is not known and has no effect"
+    );
 }

@@ -174,6 +174,7 @@ impl<'a> Subject<'a> {
             vertices: all.map(|index| (self.id, index)).collect(),
             target: Some((self.id, self.end)),
             item: None,
+            guide: None,
             is_off_ground: !self.is_planar(),
         }
     }

@@ -9,11 +9,13 @@ mod end_fit_drags;
 mod end_fit_subject;
 mod end_pick;
 mod item_drag;
+mod line_drag;
 mod measure;
 mod measured;
 mod move_drag;
 mod moving_point;
 mod reference_drags;
+mod ruler_tool;
 mod select;
 mod settings;
 mod tool;
@@ -21,6 +23,8 @@ mod transform;
 mod transformation;
 mod transformed;
 mod vertices;
+
+use crate::editor::hand::gesture::Gesture;
 
 pub use arrangement::Arrangement;
 pub use draw_way::DrawWay;
@@ -37,6 +41,7 @@ use delete::DeleteTool;
 use draw::DrawTool;
 use end_fit::EndFitTool;
 use measure::MeasureTool;
+use ruler_tool::RulerTool;
 use select::SelectTool;
 use transform::TransformTool;
 use vertices::{NewVertex, NewVertexTool};
@@ -46,13 +51,16 @@ use vertices::{NewVertex, NewVertexTool};
 pub struct Tools {
     kind: ToolKind,
     tool: Box<dyn Tool>,
+    /// Takes the place of the tool while a guide is dragged from a ruler.
+    ruler: Option<RulerTool>,
 }
 
 impl Default for Tools {
     fn default() -> Self {
         let kind = ToolKind::default();
         let tool = (kind.row().make)();
-        Self { kind, tool }
+        let ruler = None;
+        Self { kind, tool, ruler }
     }
 }
 
@@ -66,17 +74,39 @@ impl Tools {
     pub fn choose(&mut self, kind: ToolKind, settings: &mut ToolSettings) {
         self.kind = kind;
         self.tool = (kind.row().make)();
+        self.ruler = None;
         settings.renew();
     }
 
     /// The tool in use.
     pub fn used(&self) -> &dyn Tool {
-        &*self.tool
+        match &self.ruler {
+            Some(ruler) => ruler,
+            None => &*self.tool,
+        }
     }
 
     /// The tool in use, to be worked with.
     pub fn used_mut(&mut self) -> &mut dyn Tool {
-        &mut *self.tool
+        match &mut self.ruler {
+            Some(ruler) => ruler,
+            None => &mut *self.tool,
+        }
+    }
+
+    /// Whether a gesture ends an open preview of an operation first: see [`Tool::begins`].
+    pub fn begins(&self, gesture: Gesture, context: &Context) -> bool {
+        RulerTool::takes(gesture, context) || self.used().begins(gesture, context)
+    }
+
+    /// Let the tool in use take a gesture, or the rulers: a drag from one places a guide, whichever tool is in use.
+    pub fn gesture(&mut self, gesture: Gesture, context: &Context) -> Vec<Effect> {
+        if RulerTool::takes(gesture, context) {
+            self.ruler = Some(RulerTool::default());
+        }
+        let effects = self.used_mut().gesture(gesture, context);
+        self.ruler.take_if(|ruler| !ruler.drags());
+        effects
     }
 }
 

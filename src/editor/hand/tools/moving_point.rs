@@ -108,22 +108,16 @@ impl MovingPoint {
 
     /// The hint for the status bar.
     pub fn hint(&self, context: &Context) -> String {
-        let curve = context.document.curve(self.curve);
-        match (self.point.kind, context.following.closed_stay) {
-            (PointKind::Clamped(index), true) => {
-                let words = curve.and_then(|it| magnified_words(&it.polygon, index));
-                let words = words.unwrap_or_default();
-                format!("Moving vertex {index} of the closed S-polygon: {words}; Esc cancels")
-            }
-            (kind, _) => {
-                let what = match kind {
-                    PointKind::Clamped(index) => format!("vertex {index} of the closed S-polygon"),
-                    PointKind::OnCurve(_) => "the curve".to_owned(),
-                };
-                let words = self.words(context).unwrap_or_default();
-                format!("Moving {what}: {words}; the wheel sets how many")
-            }
-        }
+        let what = match self.point.kind {
+            PointKind::Clamped(index) => format!("vertex {index} of the closed S-polygon"),
+            PointKind::OnCurve(_) => "the curve".to_owned(),
+        };
+        let words = self.words(context).unwrap_or_default();
+        let turned = match self.wheel_turns(&context.following) {
+            Some(_) => "the wheel sets how many",
+            None => "Esc cancels",
+        };
+        format!("Moving {what}: {words}; {turned}")
     }
 
     /// The marks on the canvas.
@@ -141,11 +135,25 @@ impl MovingPoint {
         self.drag.marks(readout, context)
     }
 
-    /// How many vertices follow.
+    /// How many vertices follow, and how far the float S-polygon moves where that is much farther.
     fn words(&self, context: &Context) -> Option<String> {
-        self.wheel_turns(&context.following)?;
-        let curve = context.document.curve(self.curve)?;
-        Some(context.following.point_words(&curve.polygon, self.point))
+        let curve = context.before.curve(self.curve)?;
+        let following = &context.following;
+        match (self.point.kind, self.wheel_turns(following)) {
+            (PointKind::Clamped(index), None) => {
+                let times = curve.polygon.clamped_vertex_amplification(index)?;
+                Some(magnified_words(times))
+            }
+            _ => {
+                let followers = following.point_words(&curve.polygon, self.point);
+                let times = following.point_magnification(curve, self.point).ok();
+                let times = times.filter(|times| *times > MOST_MAGNIFIED);
+                Some(match times {
+                    Some(times) => format!("{followers}; {}", magnified_words(times)),
+                    None => followers,
+                })
+            }
+        }
     }
 }
 
@@ -192,10 +200,10 @@ fn slide(
     Ok(None)
 }
 
-/// Say how far the float S-polygon moves with a closed vertex whose others stay.
-fn magnified_words(polygon: &FloatPolygon, index: usize) -> Option<String> {
-    let times = significant(polygon.clamped_vertex_amplification(index)?, 3);
-    Some(format!("the float S-polygon moves up to {times}× as far"))
+/// Say how far the float S-polygon moves with a point.
+fn magnified_words(times: f64) -> String {
+    let times = significant(times, 3);
+    format!("the float S-polygon moves up to {times}× as far")
 }
 
 /// The point that a press takes: the end of a curve beside which no other point can be dragged well.

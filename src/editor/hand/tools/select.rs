@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DVec2, DVec3};
 
 use super::item_drag::ItemDrag;
+use super::line_drag::LineDrag;
 use super::move_drag::MoveDrag;
 use super::moving_point::MovingPoint;
 use super::reference_drags::{Frame, ReferenceDrag};
@@ -49,6 +50,8 @@ enum State {
     Reference(ReferenceDrag),
     /// All selected curves and references are moved.
     Items(ItemDrag),
+    /// A guide or an axis is moved.
+    Line(LineDrag),
     /// A box is drawn, by its corners on the canvas.
     Boxing { from: DVec2, to: DVec2 },
     /// The comb is scaled by the tip of a tooth.
@@ -106,11 +109,15 @@ impl Tool for SelectTool {
                 let staying = context.staying().map(Effect::Say);
                 [Effect::Commit].into_iter().chain(staying).collect()
             }
-            (State::MovingPoint(_) | State::Reference(_), Gesture::DragEnd(_)) => {
+            (State::MovingPoint(_) | State::Reference(_) | State::Line(_), Gesture::DragEnd(_)) => {
                 vec![Effect::Commit]
             }
             (
-                State::Moving(_) | State::MovingPoint(_) | State::Reference(_) | State::Items(_),
+                State::Moving(_)
+                | State::MovingPoint(_)
+                | State::Reference(_)
+                | State::Items(_)
+                | State::Line(_),
                 Gesture::Cancel,
             ) => {
                 vec![Effect::Abort]
@@ -137,6 +144,7 @@ impl Tool for SelectTool {
             || takes_reference(place, context)
             || context.hits.leg(place, LEG_REACH).is_some()
             || point_of_curve(place, context).is_some()
+            || context.hits.plane_line(place).is_some()
     }
 
     fn wheel_turns(&self, following: &Following) -> Option<Followers> {
@@ -168,6 +176,7 @@ impl Tool for SelectTool {
             State::MovingPoint(moving) => moving.hint(context),
             State::Reference(drag) => drag.hint(context.snapping),
             State::Items(drag) => drag.hint(context),
+            State::Line(drag) => drag.hint(context),
             State::Boxing { .. } => {
                 match context.selection.has_no_item() {
                     true => "Release to select the curves in the box; Shift adds to the selection",
@@ -222,6 +231,7 @@ impl Tool for SelectTool {
             State::MovingPoint(moving) => moving.marks(context),
             State::Reference(drag) => drag.marks(context),
             State::Items(drag) => drag.marks(context),
+            State::Line(drag) => drag.marks(context),
             State::Idle => {
                 let frame = Frame::of(context).map(|frame| frame.mark());
                 let tooth = context.place();
@@ -240,6 +250,7 @@ impl Tool for SelectTool {
             | State::MovingPoint(_)
             | State::Reference(_)
             | State::Items(_)
+            | State::Line(_)
             | State::Scaling { .. } => Cursor::Move,
             State::Idle
                 if place.is_some_and(|place| {
@@ -252,6 +263,9 @@ impl Tool for SelectTool {
             }
             State::Idle if place.is_some_and(|place| takes_reference(place, context)) => {
                 Cursor::Grab
+            }
+            State::Idle if place.is_some_and(|it| context.hits.plane_line(it).is_some()) => {
+                Cursor::Move
             }
             _ => Cursor::Default,
         }
@@ -266,6 +280,7 @@ impl SelectTool {
             State::MovingPoint(moving) => vec![moving.drag(place, context)],
             State::Reference(drag) => vec![drag.drag(place, context)],
             State::Items(drag) => vec![drag.drag(place, context)],
+            State::Line(drag) => vec![drag.drag(place, context)],
             State::Boxing { to, .. } => {
                 *to = place;
                 Vec::new()
@@ -317,6 +332,10 @@ impl SelectTool {
             let mut effects = vec![Effect::Select(Vec::new()), Effect::Activate(hit.curve)];
             effects.extend(self.start_reference(Some(drag)));
             return effects;
+        }
+        if let Some((drag, effect)) = LineDrag::on_canvas(place, context) {
+            self.state = State::Line(drag);
+            return vec![effect];
         }
         self.state = State::Boxing {
             from: place,

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 use super::settings::ToolSettings;
 use super::transformation::Transformation;
 use crate::document::{Curve, CurveId, Document, Edit, quoted};
-use crate::editor::hand::alignment;
+use crate::editor::hand::alignment::{self, Aligning};
 use crate::editor::hand::drawing_plane::DrawingPlane;
 use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::Gesture;
@@ -17,6 +17,7 @@ use crate::editor::hand::snapping::{self, Carried, Snap, by_fifteen_degrees};
 use crate::editor::hand::typed_point::{EntryError, TypedPoint};
 use crate::editor::selection::{Selection, VertexId};
 use crate::editor::view::Look;
+use crate::editor::view::layers::Layer;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::viewport::Viewport;
@@ -389,18 +390,27 @@ impl Context<'_> {
         })
     }
 
-    /// The alignment lines near a place of the view plane, if they are on.
+    /// The alignment lines near a place of the view plane, as far as they are on.
     fn lined_up(&self, place: DVec2, carried: &Carried) -> Option<Snap> {
-        let line_up = || {
-            alignment::line_up(
-                place,
-                self.before,
-                self.selection.active(),
-                carried,
-                self.viewport,
-            )
-        };
-        (!self.ignores_lines).then(line_up).flatten()
+        alignment::line_up(place, &self.aligning(carried))
+    }
+
+    /// The line of a direction that a dragged one snaps to near a place of it, if snapping is on.
+    pub fn line_snap(&self, place: DVec2, along: DVec2, carried: &Carried) -> Option<Snap> {
+        let line = || alignment::line_along(place, along, &self.aligning(carried));
+        let grid = || snapping::snap_to_grid_line(place, along, self.viewport);
+        self.snaps().then(|| line().or_else(grid)).flatten()
+    }
+
+    fn aligning<'b>(&'b self, carried: &'b Carried) -> Aligning<'b> {
+        Aligning {
+            document: self.before,
+            active: self.selection.active(),
+            carried,
+            viewport: self.viewport,
+            lines: !self.ignores_lines,
+            guides: self.hits.layers().shows(Layer::Guides),
+        }
     }
 
     /// The crossing of the grid near a place of the view plane, as far as what is carried along can lie on it.
