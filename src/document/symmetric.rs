@@ -14,6 +14,9 @@ use crate::geometry::{End, FloatPolygon, Symmetry};
 /// than this share of a leg: an approximation is, an insertion on one side is not.
 const OF_LEG: f64 = 0.05;
 
+/// Moves that differ by no more than this share of the coordinates are one.
+const ROUNDING: f64 = 1e-14;
+
 /// Fewer vertices are symmetric about many planes by chance.
 const LEAST: usize = 4;
 
@@ -170,6 +173,10 @@ fn moved_along(symmetry: Symmetry, [before, after]: [&FloatPolygon; 2]) -> Optio
     if symmetry.holds(after) {
         return Some(symmetry);
     }
+    let translated = translation([before, after]).and_then(|by| symmetry.translated(by));
+    if let Some(translated) = translated.filter(|it| it.holds(after)) {
+        return Some(translated);
+    }
     let count = after.vertices().len();
     let moved = (0..count)
         .filter(|index| differs(before, after, *index))
@@ -180,6 +187,22 @@ fn moved_along(symmetry: Symmetry, [before, after]: [&FloatPolygon; 2]) -> Optio
         .following(after)
         .filter(|_| is_whole && count >= LEAST);
     moved.filter(|it| it.holds(after))
+}
+
+/// The vector by which all vertices moved, if it is one; the median of the rounded ones.
+fn translation([before, after]: [&FloatPolygon; 2]) -> Option<DVec3> {
+    let pairs = before.vertices().iter().zip(after.vertices());
+    let moves: Vec<DVec3> = pairs.map(|(before, after)| *after - *before).collect();
+    let median = |axis: usize| {
+        let mut moves: Vec<f64> = moves.iter().map(|by| by[axis]).collect();
+        moves.sort_by(f64::total_cmp);
+        moves.get(moves.len() / 2).copied().unwrap_or_default()
+    };
+    let by = DVec3::from_array([0, 1, 2].map(median));
+    let far = after.vertices().iter().map(|it| it.abs().max_element());
+    let rounding = ROUNDING * far.fold(by.length(), f64::max);
+    let is_one = moves.iter().all(|it| it.distance(by) <= rounding);
+    is_one.then_some(by)
 }
 
 /// The rule of a polygon with other numbers, or of a copy; `None` if it is not symmetric.

@@ -95,7 +95,7 @@ impl Symmetry {
             true => -*it,
             false => *it,
         });
-        let normal = vector::direction(turned.sum())?;
+        let normal = along_axis(vector::direction(turned.sum())?);
         let shares = polygon.vertices().iter().map(|it| *it / count as f64);
         let through = shares.sum::<DVec3>();
         let rounding = ROUNDING * polygon.size();
@@ -135,6 +135,22 @@ impl Symmetry {
         let mirrors = [Some(self.mirror), self.second];
         let mirrors = mirrors.into_iter().flatten();
         mirrors.filter_map(|mirror| mirror.plane())
+    }
+
+    /// The rule of a polygon that was moved by a vector; `None` for half a turn.
+    pub fn translated(&self, by: DVec3) -> Option<Self> {
+        let [through, normal] = self.mirror.plane()?;
+        let through = match self.second {
+            Some(_) => through + by,
+            // Without a share along the plane: it is one of a coordinate again where it comes back to the origin.
+            None => (through.dot(normal) + by.dot(normal)) * normal,
+        };
+        let mirror = Mirror::of_plane(through, normal);
+        Some(Self {
+            mirror,
+            second: self.second.and_then(|_| mirror.perpendicular()),
+            ..*self
+        })
     }
 
     /// The number of the vertex that is the image of another one, of `count` vertices.
@@ -365,6 +381,15 @@ impl Symmetry {
             Some(mirror) => mirror.foot(point),
             None => point,
         }
+    }
+}
+
+/// A direction along an axis but for rounding, as that axis.
+fn along_axis(direction: DVec3) -> DVec3 {
+    let axis = DVec3::from_array(direction.to_array().map(f64::round));
+    match (direction - axis).length() <= ROUNDING && axis.length() == 1.0 {
+        true => axis,
+        false => direction,
     }
 }
 

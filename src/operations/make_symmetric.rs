@@ -74,6 +74,9 @@ const OVERSHOOT: f64 = 0.1;
 /// The share of a half that a bridge replaces where nothing else is found: less leaves no room to turn a corner off.
 const RECEDED: f64 = 0.04;
 
+/// The share of the work that bending is.
+const BEGUN: f64 = 0.1;
+
 /// How often the segments of a half that bends are halved: few vertices come first.
 const HALVED: [u32; 2] = [0, 1];
 
@@ -315,6 +318,10 @@ fn completed(
         false => bent((polygon, &part), (half, span), mirror, tolerance, progress)?,
     };
     let limit = (1.0 - OF_CUT) * tolerance;
+    progress.set_done(BEGUN);
+    if let Some(bent) = bent.as_ref().filter(|it| it.off <= FAR * size) {
+        progress.show(bent.polygon.clone());
+    }
     let whole = match check_joint(joint, part.size(), tolerance) {
         // Where the outer ends meet as well, the curve is one half of a closed outline.
         Ok(()) if is_outline([first, second], tolerance) => {
@@ -322,7 +329,12 @@ fn completed(
         }
         _ if let Some(bent) = bent.take_if(|it| it.off <= limit) => bent,
         Ok(()) if polygon.is_periodic() => return Ok(corner(id, joint_of(second, first).angle)),
-        Ok(()) => match merged([first, second], mirror, tolerance, &progress.part(0.0, 0.6)) {
+        Ok(()) => match merged(
+            [first, second],
+            mirror,
+            tolerance,
+            &progress.part(BEGUN, 0.6),
+        ) {
             Err(OperationError::Merge(MergeError::NotFound)) => {
                 smoothed((&part, [first, second]), half, mirror, tolerance, progress)?
             }
@@ -333,10 +345,9 @@ fn completed(
         },
         Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
         Err(_) => {
-            let (whole, halves) = (
-                bridged([first, second], mirror, progress)?,
-                (&part, [first, second]),
-            );
+            let whole = bridged([first, second], mirror, progress)?;
+            progress.set_done(0.5);
+            let halves = (&part, [first, second]);
             with_few_vertices((whole, most), halves, mirror, tolerance, progress)?
         }
     };

@@ -9,6 +9,7 @@ use batten::geometry::expressions::LengthUnit;
 use batten::geometry::{End, FloatPolygon};
 use glam::{DVec2, DVec3};
 
+use super::common::check_symmetry;
 use super::script::Script;
 
 /// A place on the ruler at the left, and one on that below, on a canvas of 1000 by 700.
@@ -213,17 +214,31 @@ fn an_axis_of_symmetry_is_dragged_with_its_curve() {
     assert_eq!(names(script.scene()), ["On the guide"]);
     script.release(seen(&script, 17.0, -3.0));
     let curve = script.editor.document().curve(vase).expect("the vase");
-    let [through, _] = curve
+    let [through, normal] = curve
         .symmetry
         .expect("a rule")
         .planes()
         .next()
         .expect("a plane");
     assert_eq!(through.x, 17.25);
+    assert_eq!(normal, DVec3::X);
     let moved = script.polygon();
     let pairs = moved.vertices().iter().zip(before.vertices());
     for (now, then) in pairs {
         assert!((*now - *then - DVec3::new(17.25, 0.0, 0.0)).length() < 1e-13);
+    }
+    // Wherever it goes, it stays an upright axis.
+    script.command(Command::ToggleSnapping);
+    let mut from = 17.25;
+    for to in [29.371, -4.13, 33.337, 0.1] {
+        script.drag(seen(&script, from, -3.0), seen(&script, to, -3.0));
+        let curve = script.editor.document().curve(vase).expect("the vase");
+        let symmetry = curve.symmetry.expect("a rule");
+        let [through, normal] = symmetry.planes().next().expect("a plane");
+        assert_eq!(normal, DVec3::X);
+        assert!((through.x - to).abs() < 1e-9);
+        check_symmetry(curve).expect("a symmetric curve");
+        from = to;
     }
 }
 

@@ -204,7 +204,11 @@ impl Editor {
         let begins = |tools: &mut Tools, context: &Context<'_>| tools.begins(gesture, context);
         if previews && self.with_tools(begins) {
             // The gesture is about the document without the preview, which ends now.
+            let ended = self.previewed_operation().map(OperationInProgress::ended);
             self.operating().interrupt();
+            if let Some(unready) = ended.filter(|note| note.warns) {
+                self.message = Message::of(&Ok(unready));
+            }
         }
         let effects = self.with_tools(|tools, context| tools.gesture(gesture, context));
         self.take_effects(effects, repeats);

@@ -139,7 +139,7 @@ impl Hand {
     }
 }
 
-/// The end of an open curve that is seen at a place; the nearest of several.
+/// The end of an open curve that is seen at a place: that of the active curve, or the nearest of several.
 fn end_at(at: DVec2, context: &Context) -> Option<(CurveId, End)> {
     let viewport = context.viewport;
     let curves = context.hits.curves();
@@ -152,6 +152,10 @@ fn end_at(at: DVec2, context: &Context) -> Option<(CurveId, End)> {
         })
     });
     let near = ends.filter(|(distance, _)| *distance <= REACH);
-    let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0));
+    let is_other = |(_, (id, _)): &(f64, (CurveId, End))| context.selection.active() != Some(*id);
+    let nearest = near.min_by(|a, b| {
+        let by_activity = is_other(a).cmp(&is_other(b));
+        by_activity.then(a.0.total_cmp(&b.0))
+    });
     nearest.map(|(_, end)| end)
 }
