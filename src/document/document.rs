@@ -75,6 +75,27 @@ impl Document {
         self.unit
     }
 
+    /// Replace the guide lines. Two at one place count as one; those that are no planes are left out.
+    #[must_use]
+    pub fn with_guide_lines(mut self, lines: impl IntoIterator<Item = GuideLine>) -> Self {
+        self.set_guide_lines(lines);
+        self
+    }
+
+    /// The guide lines, in the order in which they were placed.
+    pub fn guide_lines(&self) -> &[GuideLine] {
+        &self.guide_lines
+    }
+
+    pub(super) fn set_guide_lines(&mut self, lines: impl IntoIterator<Item = GuideLine>) {
+        self.guide_lines.clear();
+        for line in lines.into_iter().filter(|it| it.is_usable()) {
+            if !self.guide_lines.contains(&line) {
+                self.guide_lines.push(line);
+            }
+        }
+    }
+
     /// Set the unknown keys of the project's file. Every edit keeps them.
     pub fn with_extras(self, extras: Extras) -> Self {
         Self { extras, ..self }

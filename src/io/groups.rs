@@ -7,6 +7,7 @@ use super::formats;
 use super::{Loss, Reading};
 use crate::document::{Curve, Document, Group, Reference};
 use crate::geometry::FloatPolygon;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::ReferenceCurve;
 
 fn curve(name: &str, group: Group) -> Curve {
@@ -99,6 +100,7 @@ fn formats_without_layers_report_the_loss() {
         assert_eq!(losses(extension, &document), [None], "{extension}");
     }
     let format = formats::find("brep").expect("a format");
+    let document = document.with_unit(Some(LengthUnit::Millimetre));
     let export = format.write(&document, None).expect("a file");
     let told = export.losses.to_string();
     assert_eq!(told, "“a”: the group isn't stored in the BREP");
