@@ -2,7 +2,7 @@
 //!
 //! A polygon of 2m segments is symmetric if its n middle vertices are pairs of images; then the curve is C^(n−1) across the
 //! mirror plane. The first n vertices of the half are these: its own moves δ make pairs of them, with the least second
-//! differences Σ|δ[i] − 2δ[i + 1] + δ[i + 2]|², so that the change fades along the half and adds no waves.
+//! differences Σ|δᵢ − 2δᵢ₊₁ + δᵢ₊₂|², so that the change fades along the half and adds no waves.
 
 use glam::DVec3;
 
