@@ -138,18 +138,29 @@ mod tests {
 
     #[test]
     fn a_gap_and_an_angle_are_spread_along_the_half() {
+        const BESIDE: f64 = 0.01;
+        const ANGLE: f64 = 0.002;
         let mirror = Mirror::of_coordinate(0);
-        let askew = half(|x, y| (x + 0.01, y + 0.002 * x));
-        for (reach, most) in [(7, 0.03), (14, 0.02), (28, 0.02)] {
+        let askew = half(|x, y| (x + BESIDE, y + ANGLE * x));
+        let legs = askew.vertices().windows(2).skip(2);
+        let legs: Vec<f64> = legs.map(|leg| leg[0].distance(leg[1])).collect();
+        for reach in [7, 10, 14] {
             let whole = joined_to_image(&askew, &mirror, reach).expect("a whole");
             let middle = whole.jet(askew.segments() as f64);
             let rounding = 1e-14 * askew.size();
             assert!(middle.point.x.abs() < rounding && middle.first.y.abs() < rounding);
-            for step in 0..=90 {
+            // An angle that is turned off evenly over a length moves the end by half of both.
+            let length: f64 = legs.iter().take(reach).sum();
+            let most = BESIDE + 0.5 * ANGLE * length;
+            let moves = (0..=90).map(|step| {
                 let u = f64::from(step) / 10.0;
-                let off = whole.point(u + 9.0).distance(askew.point(u));
-                assert!(off < most, "{reach} at {u}: {off}");
-            }
+                whole.point(u + 9.0).distance(askew.point(u))
+            });
+            let largest = moves.fold(0.0, f64::max);
+            assert!(
+                (0.5 * most..most).contains(&largest),
+                "{reach}: {largest} of {most}"
+            );
         }
     }
 
