@@ -1,15 +1,16 @@
 //! A curve that becomes its own mirror image.
 
+use std::f64::consts::PI;
 use std::time::Duration;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::bridge::{self, found};
 use super::cutting::without_target;
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::inputs::Inputs;
-use super::join::{MERGING, TOLERANCE, WITHIN, merge_error, possible};
+use super::join::{ALSO_WITHIN, MERGING, TOLERANCE, WITHIN, merge_error, possible};
 use super::lists::given;
 use super::mirror::{FROM, PLANE, TO, check_free, plane_or_line};
 use super::operands::Operands;
@@ -24,10 +25,11 @@ use crate::geometry::distance::SideDeviation;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fairing::mirrored_half::joined_to_image;
 use crate::geometry::fairing::requirement::Requirement;
+use crate::geometry::features::{Feature, Features};
 use crate::geometry::fitting::{PlaneFit, SymmetryAxis, fit_plane};
 use crate::geometry::{
-    BezierPolygon, End, FloatPolygon, Mirror, Progress, Symmetry, arc_length_between, bounds,
-    counted, significant,
+    BezierPolygon, End, FloatPolygon, Joint, Mirror, Progress, Symmetry, arc_length_between,
+    bounds, counted, significant,
 };
 
 const AXIS: Parameter = Parameter {
@@ -82,6 +84,13 @@ const HALVED: [u32; 2] = [0, 1];
 
 /// How many vertices bend near the axis, as multiples of the degree and more: many bend fairly, few stay near.
 const BENT: [[usize; 2]; 3] = [[4, 8], [2, 4], [1, 2]];
+
+/// The share of its size by which a half that meets the axis askew may move where no tolerance is given: what is traced by
+/// hand meets no axis squarely.
+const NEAR: f64 = 5e-3;
+
+/// The corner with the image, in radians, from which on a half meets the axis askew: 1°.
+const ASKEW: f64 = PI / 180.0;
 
 /// Beyond the tolerance, a fit within so many times of it shows what a larger one would give.
 const LARGER: f64 = 4.0;
@@ -194,7 +203,8 @@ fn made(
     let polygon = &curve.polygon;
     let keep = values.choice(&KEEP, &[None, Some(Half::First), Some(Half::Second)]);
     let size = BezierPolygon::from_float(polygon).size();
-    let tolerance = given(values, &TOLERANCE).unwrap_or(WITHIN * size);
+    let asked = given(values, &TOLERANCE);
+    let tolerance = asked.unwrap_or(WITHIN * size);
     let crossings = crossings(polygon, &mirror, tolerance);
     let last = polygon.segments() as f64;
     let drawn = drawn_half(polygon, &crossings);
@@ -214,13 +224,7 @@ fn made(
         (_, []) => (nearer_end(polygon, &mirror), [0.0, last]),
     };
     let overshoots = drawn == Some((half, span));
-    completed(
-        input,
-        (half, span, overshoots),
-        &mirror,
-        tolerance,
-        progress,
-    )
+    completed(input, (half, span, overshoots), &mirror, asked, progress)
 }
 
 /// The half of a shape that an open curve is, where it goes on beyond the mirror plane by no more than an overshoot.
@@ -295,41 +299,68 @@ pub(super) fn smaller_side(polygon: &FloatPolygon) -> f64 {
     sides[1]
 }
 
-/// One half of the curve, or all of a curve on one side, with its image.
+/// One half of the curve, or all of a curve on one side, with its image, within the tolerance that is asked for.
 fn completed(
     input: &Operands,
     (half, span, overshoots): (Half, [f64; 2], bool),
     mirror: &Mirror,
-    tolerance: f64,
+    asked: Option<f64>,
     progress: &Progress,
 ) -> Result<Outcome, OperationError> {
     let (id, curve) = input.curve()?;
     let polygon = &curve.polygon;
     let size = BezierPolygon::from_float(polygon).size();
-    let (part, cut) = cut(polygon, span, OF_CUT * tolerance)?;
+    let strict = asked.unwrap_or(WITHIN * size);
+    let (part, cut) = cut(polygon, span, OF_CUT * strict)?;
     // The vertices of the segments that the half spans: a cut between knots adds many.
     let most = 2 * ((span[1] - span[0]).ceil() as usize + polygon.degree());
     let image = image(&part, mirror)?;
     let [first, second] = half.in_order(&part, &image);
     let joint = joint_of(first, second);
-    let meets_itself = joint_of(second, first).meets(tolerance);
+    let meets_itself = joint_of(second, first).meets(strict);
+    let checked = check_joint(joint, part.size(), strict);
+    let is_half = checked.is_ok() && !meets_itself && !polygon.is_periodic();
+    // What nearly meets the axis squarely is also found within the tolerance.
+    let is_askew = is_half && (!joint.meets(strict) || joint.angle > ASKEW);
+    let share = if is_askew { NEAR } else { ALSO_WITHIN };
+    let near = match is_half {
+        true => asked.unwrap_or(share * size),
+        false => strict,
+    };
+    let is_apart = matches!(checked, Err(MergeError::Apart { .. }));
+    let limits = [strict, near].map(|it| (1.0 - OF_CUT) * it);
     let mut bent = match meets_itself {
         true => None,
-        false => bent((polygon, &part), (half, span), mirror, tolerance, progress)?,
+        false => bent((polygon, &part), (half, span), mirror, limits, progress)?,
     };
-    let limit = (1.0 - OF_CUT) * tolerance;
     progress.set_done(BEGUN);
     if let Some(bent) = bent.as_ref().filter(|it| it.off <= FAR * size) {
         progress.show(bent.polygon.clone());
     }
-    let whole = match check_joint(joint, part.size(), tolerance) {
+    let is_wanted = |it: &mut Bent| it.off <= limits[0] || it.is_within(limits[1]);
+    let wanted = bent.take_if(is_wanted).map(Bent::whole);
+    let tolerance = match is_askew || wanted.is_some() {
+        true => near,
+        false => strict,
+    };
+    let wanted = match wanted {
+        None if tolerance > strict => {
+            let receded = receded(&part, half, mirror, progress)?;
+            let is_fair = receded.fault.is_none() && receded.knuckle.is_none();
+            Some(receded).filter(|it| is_fair && it.off <= limits[1])
+        }
+        wanted => wanted,
+    };
+    let whole = match (wanted, checked) {
+        (Some(whole), _) => whole,
         // Where the outer ends meet as well, the curve is one half of a closed outline.
-        Ok(()) if is_outline([first, second], tolerance) => {
+        (None, Ok(())) if is_outline([first, second], tolerance) => {
             closed([first, second], mirror, tolerance, progress)?
         }
-        _ if let Some(bent) = bent.take_if(|it| it.off <= limit) => bent,
-        Ok(()) if polygon.is_periodic() => return Ok(corner(id, joint_of(second, first).angle)),
-        Ok(()) => match merged(
+        (None, Ok(())) if polygon.is_periodic() => {
+            return Ok(corner(id, joint_of(second, first).angle));
+        }
+        (None, Ok(())) => match merged(
             [first, second],
             mirror,
             tolerance,
@@ -343,21 +374,25 @@ fn completed(
                 with_few_vertices((merged?, most), halves, mirror, tolerance, progress)?
             }
         },
-        Err(MergeError::Corner { angle, .. }) => return Ok(corner(id, angle)),
-        Err(_) => {
+        (None, Err(MergeError::Corner { angle, .. })) => return Ok(corner(id, angle)),
+        (None, Err(_)) => {
             let whole = bridged([first, second], mirror, progress)?;
+            progress.show(whole.polygon.clone());
             progress.set_done(0.5);
             let halves = (&part, [first, second]);
             with_few_vertices((whole, most), halves, mirror, tolerance, progress)?
         }
     };
-    let is_nearer = |bent: &Whole| whole.off > limit.max(bent.off);
+    let limit = (1.0 - OF_CUT) * tolerance;
+    let is_nearer = |bent: &Bent| whole.off > limit.max(bent.off);
     let whole = match bent {
-        Some(bent) if is_nearer(&bent) => bent,
+        Some(bent) if is_nearer(&bent) => bent.whole(),
         _ => whole,
     };
     let symmetric = whole.polygon;
     let deviation = whole.off + cut;
+    let is_far = tolerance > strict && deviation > strict;
+    let askew = is_far.then(|| askew(joint, deviation, strict));
     let replaced = match overshoots {
         true => None,
         false => replaced(polygon, span, &symmetric, progress)?,
@@ -423,7 +458,8 @@ fn completed(
             "The half that is kept moves by up to {kept}. The other half, now its image, moves by up to {replaced}"
         ));
     }
-    let told = [another, whole.fault.or(whole.knuckle)];
+    let bridged = is_apart.then(|| bridged_over(part.end_jet(half.inner()).point, joint));
+    let told = [askew, bridged, another, whole.fault.or(whole.knuckle)];
     outcome.warnings.extend(told.into_iter().flatten());
     Ok(outcome)
 }
@@ -476,53 +512,114 @@ struct Whole {
 /// All of a half.
 const WHOLE: [f64; 2] = [0.0, 1.0];
 
-/// Bend the vertices of a half near the axis so that it goes on smoothly into its image; `None` for what has no plane.
+/// A half that was bent near the axis, and its image in one.
+struct Bent {
+    polygon: FloatPolygon,
+    /// How far the half moves.
+    off: f64,
+    /// The inflections that neither the half nor its image has.
+    waves: usize,
+}
+
+impl Bent {
+    /// Whether it is fair and near.
+    fn is_within(&self, limit: f64) -> bool {
+        self.waves == 0 && self.off <= limit
+    }
+
+    fn whole(self) -> Whole {
+        Whole {
+            joint: [0.5 * self.polygon.segments() as f64; 2],
+            kept: WHOLE,
+            polygon: self.polygon,
+            method: "bend",
+            off: self.off,
+            bounded: false,
+            fault: None,
+            knuckle: None,
+        }
+    }
+}
+
+/// Bend the vertices of a half near the axis so that it goes on smoothly into its image: the first try without waves within
+/// the first limit, or the best one within the second. `None` for what has no plane.
 fn bent(
     (polygon, part): (&FloatPolygon, &FloatPolygon),
     (half, [from, to]): (Half, [f64; 2]),
     mirror: &Mirror,
-    tolerance: f64,
+    [limit, near]: [f64; 2],
     progress: &Progress,
-) -> Result<Option<Whole>, OperationError> {
+) -> Result<Option<Bent>, OperationError> {
     if polygon.is_periodic() {
         return Ok(None);
     }
-    let mut nearest: Option<Whole> = None;
-    let tries = HALVED.iter().flat_map(|it| BENT.map(|reach| (*it, reach)));
-    for (halvings, [times, more]) in tries {
+    let own =
+        2 * inflections(part, progress)? + 2 * usize::from(turns_back(part, half.inner(), mirror));
+    let mut best: Option<Bent> = None;
+    for halvings in HALVED {
         // The end of the cut is near the axis: it need not be exact.
-        let own = match [from, to] == [0.0, polygon.segments() as f64] {
+        let is_whole = [from, to] == [0.0, polygon.segments() as f64];
+        let cut = match is_whole && halvings == 0 {
             true => polygon.clone(),
             false => polygon.trimmed(from, to, halvings)?.polygon,
         };
-        let reach = times * polygon.degree() + more;
-        let whole = match half.inner() {
-            End::Start => joined_to_image(&own, mirror, reach),
-            End::Finish => joined_to_image(&own.reversed(), mirror, reach).map(|it| it.reversed()),
-        };
-        let Some(whole) = whole else {
-            return Ok(None);
-        };
-        let off = SideDeviation::of_curve(part, &whole, progress);
-        let off = off.map_err(|_| OperationError::Cancelled)?;
-        let off = off.largest.distance();
-        if nearest.as_ref().is_none_or(|known| off < known.off) {
-            nearest = Some(Whole {
-                joint: [0.5 * whole.segments() as f64; 2],
-                kept: WHOLE,
+        for [times, more] in BENT {
+            let reach = times * polygon.degree() + more;
+            let whole = match half.inner() {
+                End::Start => joined_to_image(&cut, mirror, reach),
+                End::Finish => {
+                    let whole = joined_to_image(&cut.reversed(), mirror, reach);
+                    whole.map(|it| it.reversed())
+                }
+            };
+            let Some(whole) = whole else {
+                return Ok(None);
+            };
+            let off = SideDeviation::of_curve(part, &whole, progress);
+            let off = off.map_err(|_| OperationError::Cancelled)?;
+            let bent = Bent {
+                off: off.largest.distance(),
+                waves: inflections(&whole, progress)?.saturating_sub(own),
                 polygon: whole,
-                method: "bend",
-                off,
-                bounded: false,
-                fault: None,
-                knuckle: None,
-            });
+            };
+            let rank = |it: &Bent| (it.off > near, it.waves, it.off);
+            let is_better = |known: &Bent| rank(&bent) < rank(known);
+            if best.as_ref().is_none_or(is_better) {
+                best = Some(bent);
+            }
+            if best.as_ref().is_some_and(|it| it.is_within(limit)) {
+                return Ok(best);
+            }
         }
-        if off <= (1.0 - OF_CUT) * tolerance {
+        if best.as_ref().is_some_and(|it| it.is_within(near)) {
             break;
         }
     }
-    Ok(nearest)
+    Ok(best)
+}
+
+/// Whether a planar half turns the other way at the mirror plane than before it: then its curvature changes its sign on
+/// either side.
+fn turns_back(part: &FloatPolygon, inner: End, mirror: &Mirror) -> bool {
+    let jet = part.end_jet(inner);
+    let (Some(tangent), Some([_, normal])) = (jet.tangent(), mirror.plane()) else {
+        return false;
+    };
+    // Beyond the plane the part of the tangent across goes on, and that within it turns round.
+    let across = tangent.dot(normal) * normal;
+    let image = 2.0 * across - tangent;
+    let turn = match inner {
+        End::Start => image.truncate().perp_dot(tangent.truncate()),
+        End::Finish => tangent.truncate().perp_dot(image.truncate()),
+    };
+    part.is_planar() && turn * jet.curvature_of(true) < 0.0
+}
+
+/// Count the proved inflections of a curve.
+fn inflections(polygon: &FloatPolygon, progress: &Progress) -> Result<usize, OperationError> {
+    let features = Features::proved(polygon, |_| !progress.is_cancelled());
+    let features = features.ok_or(OperationError::Cancelled)?;
+    Ok(features.count(Feature::Inflection))
 }
 
 /// Merge a half with its image.
@@ -766,6 +863,24 @@ fn receded(
         kept,
         ..whole
     })
+}
+
+/// Say why a half moves farther than a tolerance, by the joint with its image.
+fn askew(joint: Joint, off: f64, tolerance: f64) -> String {
+    let beside = 0.5 * joint.gap;
+    let beside = match beside > tolerance {
+        true => format!("{} beside it and ", significant(beside, 2)),
+        false => String::new(),
+    };
+    let [angle, off] = [0.5 * joint.angle.to_degrees(), off].map(|it| significant(it, 2));
+    format!("The half met the axis {beside}{angle}° askew: it moves by up to {off}")
+}
+
+/// Say which end of a half far from the axis is joined to its image, and over what gap.
+fn bridged_over(end: DVec3, joint: Joint) -> String {
+    let [x, y] = [end.x, end.y].map(|it| significant(it, 3));
+    let gap = significant(joint.gap, 3);
+    format!("The end at {x}, {y} is far from the axis: a bridge over {gap} joins it to its image")
 }
 
 /// Say which corners keep a closed curve from being near.
