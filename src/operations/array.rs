@@ -17,12 +17,12 @@ use super::values::Values;
 use crate::document::{Curve, Edit, EndTargets, free_name};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::parameters::{Number, Quantity};
-use crate::geometry::{BezierPolygon, FloatPolygon, Progress};
+use crate::geometry::{BezierPolygon, FloatPolygon, Progress, bounds};
 
 /// The most curves of an array.
 const MOST: usize = 1000;
 
-/// The step of an array without one, by the width of the curve.
+/// The step of an array without one, by the width of the curves.
 const STEP_BY_WIDTH: f64 = 1.25;
 
 const COUNT: Parameter = Parameter {
@@ -83,7 +83,7 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     let step = match point(values.list(&STEP)) {
         Some(step) => step,
         None if angle != 0.0 => DVec3::ZERO,
-        None => width(&curve.polygon) * DVec3::X,
+        None => width(&together(input, &curve.polygon)) * DVec3::X,
     };
     let about = point(values.list(&ABOUT)).unwrap_or_default();
     let taken = input.document().names().map(str::to_owned);
@@ -113,15 +113,22 @@ fn point(numbers: &[f64]) -> Option<DVec3> {
     }
 }
 
-/// The step that sets copies of a curve side by side.
-fn width(polygon: &FloatPolygon) -> f64 {
-    let closed = BezierPolygon::from_float(polygon);
-    let across = closed.vertices().iter().map(|it| it.x);
-    let (low, high) = across.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
-    match high - low {
-        0.0 => polygon.size(),
+/// The polygons of the curves that get copies at once: what lies together stays together.
+fn together<'a>(input: &'a Operands, own: &'a FloatPolygon) -> Vec<&'a FloatPolygon> {
+    let curves = input.document().curves();
+    let along = curves.filter(|(id, _)| input.goes_along(*id));
+    let along = along.map(|(_, curve)| &curve.polygon);
+    along.chain([own]).collect()
+}
+
+/// The step that sets copies of curves side by side.
+fn width(polygons: &[&FloatPolygon]) -> f64 {
+    let closed = polygons.iter().map(|it| BezierPolygon::from_float(it));
+    let closed: Vec<BezierPolygon> = closed.collect();
+    let vertices = closed.iter().flat_map(|it| it.vertices());
+    let (low, high) = bounds(vertices.copied());
+    match high.x - low.x {
+        0.0 => (high - low).length(),
         width => STEP_BY_WIDTH * width,
     }
 }

@@ -130,6 +130,29 @@ fn matched_curves_are_mirrored_together() {
     assert_eq!((count, names.len()), (6, 6), "{names:?}");
 }
 
+#[test]
+fn what_lies_together_stays_together_in_an_array() {
+    let (mut script, [_, other, short, _]) = four();
+    script.editor.hand_mut().select_items([short, other]);
+    script.operate("array", &[]).expect("copies of both");
+    let document = script.editor.document();
+    let moves = |id: CurveId| -> Vec<DVec3> {
+        let name = document.name(id).expect("a name");
+        let copies = [2, 3].map(|number| {
+            let copy = format!("{name} {number}");
+            let found = document.curves().find(|(_, curve)| curve.name == copy);
+            found.expect("a copy").1.polygon.vertices()[0]
+        });
+        let own = polygon(&script, id).vertices()[0];
+        copies.map(|copy| copy - own).to_vec()
+    };
+    let [one, two] = [short, other].map(moves);
+    for (one, two) in one.into_iter().zip(two) {
+        assert!(one.distance(two) < 1e-12 * one.length(), "{one} and {two}");
+        assert!(one.x > 0.0 && one.y == 0.0, "{one}");
+    }
+}
+
 /// A list of points on a wave, from one place on.
 fn points(at: f64) -> Reference {
     let points = (0..60).map(|i| {
