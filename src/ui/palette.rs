@@ -194,13 +194,15 @@ fn scored(all: &[Action], typed: &str, text: Text, kind: AtomKind) -> Vec<Action
             let label = action.label();
             let words = text(action);
             let score = pattern.score(Utf32Str::new(&words, &mut buffer), &mut matcher)?;
-            // The whole name before all others. Of two that match as well, what works on the document is meant,
+            // The whole name before all others, then names that begin so. Of two that match as well, what works on the document is meant,
             // operations first, then the shorter name.
             let is_part = !label.eq_ignore_ascii_case(typed.trim());
+            let lower = label.to_lowercase();
+            let is_later = !lower.starts_with(&typed.trim().to_lowercase());
             let is_example = matches!(action, Action::OpenExample(_));
             let is_other = !matches!(action, Action::Command(Command::Operation(_)));
             let score = std::cmp::Reverse(score);
-            let rank = (is_part, score, is_example, is_other, label.len());
+            let rank = (is_part, is_later, score, is_example, is_other, label.len());
             Some((rank, action))
         })
         .collect();
