@@ -14,10 +14,10 @@ use super::theme::{self, ROW, STEP, Tokens};
 use super::widgets::{self, IconButton};
 use super::{figures, item_fields};
 use crate::editor::{
-    DrawSettings, DrawWay, Editor, Entry, EntryError, Input, Key as EditorKey, LegLocks, ToolKind,
+    Command, DrawSettings, DrawWay, Editor, Entry, EntryError, Input, Key as EditorKey, LegLocks,
+    ToolKind, told,
 };
 use crate::geometry::MAX_DEGREE;
-use crate::geometry::expressions::LengthUnit;
 use crate::geometry::parameters::Quantity;
 
 /// What texts begin with that are numbers or points.
@@ -77,6 +77,7 @@ impl ToolPanel {
                 }
                 widgets::form_row(ui, "Point", |ui| self.entry_ui(ui, editor, entry, 0.0));
                 leg_ui(ui, editor);
+                edges_ui(ui, editor);
             }
             Entry::Angle | Entry::Factor => {
                 pivot_ui(ui, editor);
@@ -211,9 +212,7 @@ fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     let leg = editor.hand().leg(&editor.context());
     let pixel = editor.view().viewport().pixel();
     let length = leg.map(|leg| leg.length);
-    let unit = editor.document().unit().map(LengthUnit::symbol);
-    let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
-    let shown = |value| figures::to_resolution(value, 0.1 * pixel) + &unit;
+    let shown = |value| figures::to_resolution(value, 0.1 * pixel);
     let words = ("Length", "leg length", Quantity::Length);
     let length = figure_ui(ui, words, (locks.length, length), shown);
     let degrees = leg.and_then(|leg| leg.degrees);
@@ -223,6 +222,23 @@ fn leg_ui(ui: &mut Ui, editor: &mut Editor) {
     let new = LegLocks { length, degrees };
     if new != locks {
         editor.hand_mut().lock_leg(new);
+    }
+}
+
+/// Whether clicks snap to the edges of pictures, where there are any.
+fn edges_ui(ui: &mut Ui, editor: &mut Editor) {
+    let document = editor.document();
+    let is_seen = document
+        .references()
+        .any(|(_, it)| it.picture.is_some() && it.visible);
+    if !is_seen || editor.hand().tool() != ToolKind::Draw {
+        return;
+    }
+    let command = Command::ToggleEdges;
+    let mut is_on = command.is_checked(editor) == Some(true);
+    let switch = ui.checkbox(&mut is_on, command.label());
+    if switch.on_hover_text(command.tooltip()).clicked() {
+        told(editor.execute(command));
     }
 }
 
