@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::STRAIGHT;
+use crate::analysis::{CurveSamples, STRAIGHT};
 use crate::document::{CurveId, Document};
 use crate::editor::view::comb::{CombSettings, CombsOf};
 use crate::editor::view::layers::Layer;
@@ -145,15 +145,18 @@ impl View {
         whole.is_none_or(|whole| LEGIBLE.contains(&(comb.scale / whole)))
     }
 
-    /// Give the comb a scale at which its longest tooth is a good part of the active curve's box, and so many
-    /// teeth a segment as can be told apart on a long curve.
+    /// Give the comb a scale at which its longest tooth is a good part of the curves' box, and so many teeth a segment
+    /// as can be told apart on the longest of them: what is straight, as between points, has no teeth to count.
     pub(super) fn reset_comb(&mut self, shown: Shown<'_>) {
         self.analyse(shown.document());
         self.comb = CombSettings::default();
-        let pieces = shown
-            .active()
-            .and_then(|id| Some(self.analyses.sampled(id)?.samples.pieces()));
-        let Some(pieces) = pieces else {
+        let with_comb = self.with_comb(shown).into_iter();
+        let pieces = with_comb.filter_map(|id| {
+            let samples = &self.analyses.sampled(id)?.samples;
+            let is_bent = samples.extent() * largest_curvature(samples) > STRAIGHT;
+            is_bent.then(|| samples.pieces().max(1))
+        });
+        let Some(pieces) = pieces.max() else {
             return;
         };
         self.comb.density = (TEETH / pieces).clamp(1, self.comb.density);
@@ -176,9 +179,7 @@ impl View {
             };
             // The same from all sides.
             size = size.max(sampled.samples.extent());
-            if let Some(range) = sampled.samples.curvature() {
-                largest = largest.max(range.high.abs()).max(range.low.abs());
-            }
+            largest = largest.max(largest_curvature(&sampled.samples));
         }
         let scale = (size * largest > STRAIGHT).then(|| size / largest);
         scale.filter(|scale| *scale > 0.0 && scale.is_finite())
@@ -292,4 +293,10 @@ pub(super) fn middle(document: &Document) -> DVec3 {
     } else {
         DVec3::ZERO
     }
+}
+
+/// The largest sampled curvature without its sign; 0 without any.
+fn largest_curvature(samples: &CurveSamples) -> f64 {
+    let range = samples.curvature();
+    range.map_or(0.0, |range| range.high.abs().max(range.low.abs()))
 }
