@@ -40,10 +40,18 @@ pub fn choice_ui(ui: &mut Ui, editor: &mut Editor, name: &str) {
     });
 }
 
-/// The curves and references beside the active one, with their names.
+/// The curves and references beside the active one, with their names: no pictures, which have no distances.
 pub fn others(editor: &Editor) -> Vec<(CurveId, String)> {
     let document = editor.document();
     let named = |id| Some((id, document.name(id)?.to_owned()));
+    let is_picture = |id| {
+        document
+            .reference(id)
+            .is_some_and(|it| it.picture.is_some())
+    };
     let others = document.all_ids().filter(|id| Some(*id) != editor.active());
-    others.filter_map(named).collect()
+    others
+        .filter(|id| !is_picture(*id))
+        .filter_map(named)
+        .collect()
 }
