@@ -152,7 +152,7 @@ impl View {
         self.comb = CombSettings::default();
         let with_comb = self.with_comb(shown).into_iter();
         let pieces = with_comb.filter_map(|id| {
-            let samples = &self.analyses.sampled(id)?.samples;
+            let samples = self.analyses.sampled(id)?.samples;
             let is_bent = samples.extent() * largest_curvature(samples) > STRAIGHT;
             is_bent.then(|| samples.pieces().max(1))
         });
@@ -179,7 +179,7 @@ impl View {
             };
             // The same from all sides.
             size = size.max(sampled.samples.extent());
-            largest = largest.max(largest_curvature(&sampled.samples));
+            largest = largest.max(largest_curvature(sampled.samples));
         }
         let scale = (size * largest > STRAIGHT).then(|| size / largest);
         scale.filter(|scale| *scale > 0.0 && scale.is_finite())
