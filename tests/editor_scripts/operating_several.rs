@@ -151,6 +151,13 @@ fn what_lies_together_stays_together_in_an_array() {
         assert!(one.distance(two) < 1e-12 * one.length(), "{one} and {two}");
         assert!(one.x > 0.0 && one.y == 0.0, "{one}");
     }
+    // Undone, it leaves selected what it was about.
+    script.command(Command::Undo);
+    let mut selected = script.editor.hand().selection().items();
+    selected.sort_unstable();
+    let mut asked = vec![short, other];
+    asked.sort_unstable();
+    assert_eq!(selected, asked);
 }
 
 /// A list of points on a wave, from one place on.

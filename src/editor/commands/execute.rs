@@ -92,7 +92,17 @@ impl Editor {
             self.hand.tools.used_mut().undo();
             return Note::silent();
         }
+        let before = self.operation().and_then(|it| it.selection_before());
+        let (before, made) = (before.cloned(), self.hand.selection.items());
         let undone = self.step(Workspace::undo);
+        let document = self.workspace.document();
+        // What an operation was about is selected again where all that it made is gone.
+        if let Some(mut before) = before
+            && made.iter().all(|item| document.name(*item).is_none())
+        {
+            before.retain_valid(document);
+            self.hand.selection = before;
+        }
         undone.map_or_else(Note::silent, |label| Note::told(format!("Undone: {label}")))
     }
 

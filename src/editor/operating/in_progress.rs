@@ -105,6 +105,11 @@ pub(super) enum Stage {
 }
 
 impl OperationInProgress {
+    /// The selection before the operation, once it is applied.
+    pub(in crate::editor) fn selection_before(&self) -> Option<&Selection> {
+        self.is_applied().then_some(&self.selection)
+    }
+
     /// The operation.
     pub fn operation(&self) -> &'static Operation {
         self.operation
