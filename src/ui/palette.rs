@@ -194,18 +194,33 @@ fn scored(all: &[Action], typed: &str, text: Text, kind: AtomKind) -> Vec<Action
             let label = action.label();
             let words = text(action);
             let score = pattern.score(Utf32Str::new(&words, &mut buffer), &mut matcher)?;
-            // The whole name before all others, then names that begin so. Of two that match as well, what works on the document is meant,
-            // operations first, then the shorter name.
+            // The whole name before all others. Of two that match as well, what works on the document is meant,
+            // operations first, then the shorter name, then the one that begins so.
             let is_part = !label.eq_ignore_ascii_case(typed.trim());
             let lower = label.to_lowercase();
             let is_later = !lower.starts_with(&typed.trim().to_lowercase());
             let is_example = matches!(action, Action::OpenExample(_));
             let is_other = !matches!(action, Action::Command(Command::Operation(_)));
             let score = std::cmp::Reverse(score);
-            let rank = (is_part, is_later, score, is_example, is_other, label.len());
+            let length = label.chars().count();
+            let rank = (is_part, score, is_example, is_other, length, is_later);
             Some((rank, action))
         })
         .collect();
     scored.sort_by_key(|(rank, _)| *rank);
     scored.into_iter().map(|(_, action)| action).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_names_that_match_as_well_the_shorter_one_comes_first_then_the_one_that_begins_so() {
+        // Without a picture there is none to link anew.
+        let is_available = |action: Action| action.label() != "Relink picture…";
+        let first = |typed: &str| matches(typed, is_available).first().map(|it| it.label());
+        let told = ["comb", "picture"].map(|typed| first(typed).unwrap_or_default());
+        assert_eq!(told, ["Curvature comb", "Picture to trace…"]);
+    }
 }
