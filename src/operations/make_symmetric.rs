@@ -221,7 +221,7 @@ fn made(
         (Some(_), _) if polygon.is_periodic() => return Ok(no_halves(id, crossings.len())),
         (Some(Half::First), [first, ..]) => (Half::First, [0.0, *first]),
         (Some(Half::Second), [.., at]) => (Half::Second, [*at, last]),
-        (_, []) => (nearer_end(polygon, &mirror), [0.0, last]),
+        (_, []) => (one_side(polygon, &mirror, tolerance)?, [0.0, last]),
     };
     let overshoots = drawn == Some((half, span));
     completed(input, (half, span, overshoots), &mirror, asked, progress)
@@ -317,9 +317,10 @@ fn completed(
     let image = image(&part, mirror)?;
     let [first, second] = half.in_order(&part, &image);
     let joint = joint_of(first, second);
-    let meets_itself = joint_of(second, first).meets(strict);
     let checked = check_joint(joint, part.size(), strict);
-    let is_half = checked.is_ok() && !meets_itself && !polygon.is_periodic();
+    // Where the outer ends meet as well, the curve is one half of a closed outline.
+    let closes = checked.is_ok() && is_outline([first, second], strict);
+    let is_half = checked.is_ok() && !closes && !polygon.is_periodic();
     // What nearly meets the axis squarely is also found within the tolerance.
     let is_askew = is_half && (!joint.meets(strict) || joint.angle > ASKEW);
     let share = if is_askew { NEAR } else { ALSO_WITHIN };
@@ -329,7 +330,7 @@ fn completed(
     };
     let is_apart = matches!(checked, Err(MergeError::Apart { .. }));
     let limits = [strict, near].map(|it| (1.0 - OF_CUT) * it);
-    let mut bent = match meets_itself {
+    let mut bent = match closes {
         true => None,
         false => bent((polygon, &part), (half, span), mirror, limits, progress)?,
     };
@@ -353,10 +354,7 @@ fn completed(
     };
     let whole = match (wanted, checked) {
         (Some(whole), _) => whole,
-        // Where the outer ends meet as well, the curve is one half of a closed outline.
-        (None, Ok(())) if is_outline([first, second], tolerance) => {
-            closed([first, second], mirror, tolerance, progress)?
-        }
+        (None, Ok(())) if closes => closed([first, second], mirror, tolerance, progress)?,
         (None, Ok(())) if polygon.is_periodic() => {
             return Ok(corner(id, joint_of(second, first).angle));
         }
@@ -996,14 +994,26 @@ fn bisected([mut from, mut to]: [f64; 2], below: f64, height: impl Fn(f64) -> f6
     }
 }
 
-/// The half that a curve on one side of the mirror plane is: its end nearer to the plane is inside.
-fn nearer_end(polygon: &FloatPolygon, mirror: &Mirror) -> Half {
-    let [start, finish] = End::BOTH.map(|end| {
-        let height = mirror.height(polygon.end_jet(end).point);
-        height.unwrap_or(0.0).abs()
+/// The half that a curve on one side of the mirror plane is: inside is the end that goes on into its image, or else that
+/// which meets it at the smaller corner; where both do, or none comes near, the nearer one.
+fn one_side(
+    polygon: &FloatPolygon,
+    mirror: &Mirror,
+    tolerance: f64,
+) -> Result<Half, OperationError> {
+    let image = image(polygon, mirror)?;
+    let [first, second] = [Half::First, Half::Second].map(|half| {
+        let [before, after] = half.in_order(polygon, &image);
+        let height = mirror.height(polygon.end_jet(half.inner()).point);
+        let height = height.unwrap_or(0.0).abs();
+        match check_joint(joint_of(before, after), polygon.size(), tolerance) {
+            Ok(()) => (0, height),
+            Err(MergeError::Corner { angle, .. }) => (1, angle),
+            Err(_) => (2, height),
+        }
     });
-    match start < finish {
+    Ok(match second < first {
         true => Half::Second,
         false => Half::First,
-    }
+    })
 }
