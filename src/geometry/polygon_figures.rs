@@ -43,6 +43,11 @@ impl Range {
         }
     }
 
+    /// The largest magnitude in it: max(|low|, |high|).
+    pub fn magnitude(self) -> f64 {
+        self.low.abs().max(self.high.abs())
+    }
+
     /// The range that holds both.
     pub fn union(self, other: Self) -> Self {
         Self {

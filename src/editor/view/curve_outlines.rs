@@ -285,9 +285,7 @@ impl CurveOutlines {
         let density = comb.density.clamp(1, steps);
         let mut best: Option<(f64, [DVec2; 2])> = None;
         for (index, (own, block)) in self.blocks.iter().zip(samples.blocks()).enumerate() {
-            let steepest = block
-                .curvature
-                .map_or(0.0, |range| range.high.abs().max(range.low.abs()));
+            let steepest = block.curvature.map_or(0.0, |range| range.magnitude());
             let Bounds { low, high } = own.bounds;
             let away = target.distance(target.clamp(low, high));
             if !(away <= reach + comb.scale * steepest) {

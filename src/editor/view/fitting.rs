@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::{CurveSamples, STRAIGHT};
+use crate::analysis::STRAIGHT;
 use crate::document::{CurveId, Document};
 use crate::editor::view::comb::{CombSettings, CombsOf};
 use crate::editor::view::layers::Layer;
@@ -153,8 +153,8 @@ impl View {
         let with_comb = self.with_comb(shown).into_iter();
         let pieces = with_comb.filter_map(|id| {
             let samples = self.analyses.sampled(id)?.samples;
-            let is_bent = samples.extent() * largest_curvature(samples) > STRAIGHT;
-            is_bent.then(|| samples.pieces().max(1))
+            let largest = samples.curvature()?.magnitude();
+            (samples.extent() * largest > STRAIGHT).then(|| samples.pieces())
         });
         let Some(pieces) = pieces.max() else {
             return;
@@ -179,7 +179,8 @@ impl View {
             };
             // The same from all sides.
             size = size.max(sampled.samples.extent());
-            largest = largest.max(largest_curvature(sampled.samples));
+            let curvature = sampled.samples.curvature();
+            largest = curvature.map_or(largest, |it| largest.max(it.magnitude()));
         }
         let scale = (size * largest > STRAIGHT).then(|| size / largest);
         scale.filter(|scale| *scale > 0.0 && scale.is_finite())
@@ -293,10 +294,4 @@ pub(super) fn middle(document: &Document) -> DVec3 {
     } else {
         DVec3::ZERO
     }
-}
-
-/// The largest sampled curvature without its sign; 0 without any.
-fn largest_curvature(samples: &CurveSamples) -> f64 {
-    let range = samples.curvature();
-    range.map_or(0.0, |range| range.high.abs().max(range.low.abs()))
 }
