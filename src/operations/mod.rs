@@ -11,6 +11,7 @@
 mod alternatives;
 mod amount;
 mod atlas;
+mod bent_half;
 mod bridge;
 mod composite;
 mod crossing;
@@ -25,6 +26,7 @@ mod features;
 mod fit_piece;
 mod fit_warnings;
 mod floats;
+mod half;
 mod handle;
 mod harmony_json;
 mod inputs;
@@ -47,6 +49,7 @@ mod turned_over;
 mod value;
 mod values;
 mod which_end;
+mod whole;
 
 pub use amount::Amount;
 pub use atlas::Atlas;

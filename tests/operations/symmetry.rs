@@ -482,6 +482,40 @@ fn a_traced_half_that_meets_the_axis_nearly_squarely_becomes_whole() {
     assert!(width.abs() > 20.0, "{width}");
 }
 
+/// The upper side of the aerofoil Aquila, as a fit of its points in per cent of the chord.
+const UPPER: [(f64, f64); 9] = [
+    (209.00036, -12.63742),
+    (154.78224, -8.61668),
+    (96.30465, -0.17238),
+    (53.69564, 9.1546),
+    (14.55549, 10.3837),
+    (-0.57567, 2.21578),
+    (-0.28941, -0.6506),
+    (0.71671, -0.9391),
+    (0.94888, -0.64066),
+];
+
+#[test]
+fn of_both_ends_at_the_axis_the_squarer_one_is_inside() {
+    let upper = FloatPolygon::planar(5, &UPPER).expect("a polygon");
+    let [tail, nose] = End::BOTH.map(|end| upper.end_jet(end).point);
+    assert!(tail.x > 99.0 && nose.x < 1.0 && tail.y.abs().max(nose.y.abs()) < 0.5);
+    for half in [upper.reversed(), upper] {
+        let level = ("axis", Value::Choice(1));
+        let (_, curves) = Runner::of(half.clone()).done("make-symmetric", &[level]);
+        let whole = &curves[0].polygon;
+        assert!(!whole.is_periodic());
+        // The tail stays a corner, of two ends; the nose is round.
+        let ends = End::BOTH.map(|end| whole.end_jet(end).point);
+        assert!(ends.iter().all(|end| end.x > 99.0), "{ends:?}");
+        let middle = whole.point(0.5 * whole.segments() as f64);
+        assert!(middle.x < 1.0 && middle.y.abs() < 1e-12, "{middle}");
+        let off = SideDeviation::of_curve(&half, whole, &Progress::default());
+        let off = off.expect("a distance").largest.distance();
+        assert!(off < 5e-3 * half.size(), "{off}");
+    }
+}
+
 /// Half of a bottle that meets the y axis squarely.
 const BOTTLE: [(f64, f64); 14] = [
     (-24.0, 2.0),
