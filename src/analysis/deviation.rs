@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::analysis::item::Item;
-use crate::geometry::distance::{DistanceError, SideDeviation, Whisker};
+use crate::geometry::distance::{CurveSide, DistanceError, SideDeviation, Whisker};
 use crate::geometry::{ParametricCurve, Progress};
 
 /// The columns of the table.
@@ -76,6 +76,22 @@ impl Deviation {
     /// The root of the mean square of the distance, over the same.
     pub fn rms(&self) -> f64 {
         self.average(|side| side.rms * side.rms).sqrt()
+    }
+
+    /// The mean distance on each side of the curve that is measured from, and its share of the whiskers: of the first
+    /// side that is measured from a curve in the plane. Empty in space.
+    pub fn by_side(&self) -> Vec<(CurveSide, f64, f64)> {
+        let sides = self.sides.iter().flatten();
+        let mut sides = sides.filter(|side| side.whiskers.iter().any(|it| it.side.is_some()));
+        let whiskers = sides.next().map_or(&[][..], |side| &side.whiskers);
+        let means = CurveSide::ALL.into_iter().filter_map(|side| {
+            let own = whiskers.iter().filter(|it| it.side == Some(side));
+            let (sum, count) = own.fold((0.0, 0.0), |(sum, count), it| {
+                (sum + it.distance(), count + 1.0)
+            });
+            (count > 0.0).then(|| (side, sum / count, count / whiskers.len() as f64))
+        });
+        means.collect()
     }
 
     /// Write the whiskers as a table with tabs, a line each, those of the first side first: the side (1 or 2), the place
@@ -160,6 +176,30 @@ mod tests {
             .each_ref()
             .map(|side| side.as_ref().map_or(0, |side| side.whiskers.len()));
         assert_eq!(sides, expected);
+    }
+
+    #[test]
+    fn distances_on_both_sides_have_means_of_their_own() {
+        // From 1 below to 3 above, in even steps: a quarter of it is to the right, with a mean of a half.
+        let slope = [(0.0, -1.0), (1.0, 3.0)];
+        let slope = FloatPolygon::planar(1, &slope).expect("a polygon");
+        let slope = Item::Curve(Arc::new(Curve::new("slope".to_owned(), slope)));
+        let long = [(-9.0, 0.0), (1.0, 0.0), (11.0, 0.0)];
+        let long = FloatPolygon::planar(2, &long).expect("a polygon");
+        let long = Item::Curve(Arc::new(Curve::new("long".to_owned(), long)));
+        let measured = Deviation::measure([&slope, &long], &Progress::default());
+        let measured = measured.expect("curves have points").expect("two curves");
+        let by_side = measured.by_side();
+        let sides: Vec<CurveSide> = by_side.iter().map(|it| it.0).collect();
+        assert_eq!(sides, [CurveSide::Left, CurveSide::Right]);
+        // As fine as the steps.
+        let step = 2.0 / measured.whiskers().count() as f64;
+        for ((_, mean, share), [its_mean, its_share]) in
+            by_side.into_iter().zip([[1.5, 0.75], [0.5, 0.25]])
+        {
+            assert!((mean - its_mean).abs() <= 4.0 * step, "{mean}");
+            assert!((share - its_share).abs() <= step, "{share}");
+        }
     }
 
     #[test]

@@ -40,6 +40,19 @@ impl Group {
         !self.is_none() && other.0.starts_with(&self.0)
     }
 
+    /// The innermost group that holds both; none if there is none.
+    pub fn shared(&self, other: &Self) -> Self {
+        let names = self.0.iter().zip(&other.0);
+        let names = names.take_while(|(own, other)| own == other);
+        Self(names.map(|(name, _)| name.clone()).collect())
+    }
+
+    /// The group that this one lies within; none outside of all.
+    pub fn outer(&self) -> Self {
+        let outer = self.0.split_last().map_or(&[][..], |(_, outer)| outer);
+        Self(outer.to_vec())
+    }
+
     /// The group after this path, or its beginning, was renamed; `None` if it does not lie within `from`.
     pub fn renamed(&self, from: &Self, to: &Self) -> Option<Self> {
         if !from.holds(self) {
@@ -113,6 +126,22 @@ mod tests {
             assert_eq!(group.to_string(), text);
             assert_eq!(Group::from(text), group);
         }
+    }
+
+    #[test]
+    fn groups_share_the_beginning_of_their_paths() {
+        let group = Group::from;
+        for (one, other, shared) in [
+            ("Deck/Port", "Deck/Star", "Deck"),
+            ("Deck/Port", "Deck", "Deck"),
+            ("Deck", "Keel", ""),
+            ("", "Keel", ""),
+        ] {
+            assert_eq!(group(one).shared(&group(other)), group(shared));
+            assert_eq!(group(other).shared(&group(one)), group(shared));
+        }
+        assert_eq!(group("Deck/Port").outer(), group("Deck"));
+        assert_eq!(group("").outer(), group(""));
     }
 
     #[test]

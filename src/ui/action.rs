@@ -1,7 +1,7 @@
 //! The table of actions: the editor's commands, and those of the window alone. Menus, keys,
 //! buttons and the command palette all read it.
 
-use crate::editor::{Command, CopyForm, Editor, Key, Modifiers, Shortcut};
+use crate::editor::{Command, CopyForm, Editor, Key, Modifiers, PaneLayout, Shortcut};
 use crate::geometry::rounded_up;
 use crate::io::examples::EXAMPLES;
 use crate::io::{Exporter, formats};
@@ -154,13 +154,30 @@ impl Action {
         label.to_owned()
     }
 
-    /// The words that find the action in the palette: its label and its name on the command line.
-    pub fn words(self) -> String {
+    /// The words that find the action in the palette: its title, its name on the command line, and what other
+    /// programs call it.
+    pub fn words(self, editor: &Editor) -> String {
+        let other = match self {
+            Self::Command(command) => other_words(command),
+            _ => "",
+        };
         match self {
             Self::Command(Command::Operation(operation)) => {
-                format!("{} {}", operation.label, operation.name)
+                format!("{} {} {other}", operation.label, operation.name)
             }
-            _ => self.label(),
+            Self::Command(Command::Compare(Some(_))) => {
+                format!("{} {other}", self.title_now(editor))
+            }
+            _ => format!("{} {other}", self.label()),
+        }
+    }
+
+    /// The label outside of menus, whose titles say a part of it.
+    pub fn title_now(self, editor: &Editor) -> String {
+        let label = self.label_now(editor);
+        match self {
+            Self::Command(Command::Compare(Some(_))) => format!("Compare with {label}"),
+            _ => label,
         }
     }
 
@@ -351,6 +368,32 @@ impl Action {
             Self::NormaliseLength => Some(shell.normalised),
             _ => None,
         }
+    }
+}
+
+/// What other programs call a command.
+fn other_words(command: Command) -> &'static str {
+    match command {
+        Command::Compare(_) => "deviation difference distance",
+        Command::Panes(PaneLayout::One) => "one view",
+        Command::Panes(PaneLayout::Two) => "two views split",
+        Command::Panes(PaneLayout::Four) => "four views split",
+        Command::FitAll => "zoom to fit show everything",
+        Command::Fit => "zoom to selection",
+        Command::ShowAll => "unhide show everything",
+        Command::Isolate => "hide others solo",
+        Command::ToggleVisible => "hide show",
+        Command::TogglePeriodic => "closed",
+        Command::Operation(operation) => match operation.name {
+            "mirror" => "flip reflect",
+            "harmonise" => "fair smooth",
+            "array" => "copies pattern",
+            "to-float" => "rebuild",
+            "join" => "merge connect",
+            "split" => "divide",
+            _ => "",
+        },
+        _ => "",
     }
 }
 

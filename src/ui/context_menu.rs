@@ -186,6 +186,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
                 Divider,
                 command(Command::ToggleVisible),
                 command(Command::ToggleLocked),
+                command(Command::Group),
                 command(Command::Isolate),
             ]);
             entries
@@ -198,6 +199,7 @@ fn entries(subject: MenuSubject, editor: &Editor) -> Vec<Entry> {
             tool(ToolKind::Draw),
             references(),
             Divider,
+            command(Command::ShowAll),
             command(Command::SelectAll),
             command(Command::SelectNone),
             Divider,

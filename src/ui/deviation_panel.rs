@@ -86,6 +86,7 @@ fn figures_ui(ui: &mut Ui, editor: &Editor, compared: CurveId, deviation: &Devia
     });
     widgets::figure_row(ui, "Largest distance", &largest);
     widgets::figure_row(ui, "Mean, RMS", &format!("{mean}, {rms}"));
+    by_side_ui(ui, deviation);
     widgets::figure_row(ui, "From this one", &own)
         .on_hover_text("The largest distance of its points from the other one");
     widgets::figure_row(ui, "From the other", &other)
@@ -96,6 +97,23 @@ fn figures_ui(ui: &mut Ui, editor: &Editor, compared: CurveId, deviation: &Devia
     let of_curve = found.side.map(|it| format!(", {}", it.name()));
     let place = format!("{own}, {other}{}", of_curve.unwrap_or_default());
     widgets::figure_row(ui, "Largest at", &place);
+}
+
+/// The mean distance on each side.
+fn by_side_ui(ui: &mut Ui, deviation: &Deviation) {
+    let means = deviation.by_side();
+    if means.is_empty() {
+        return;
+    }
+    let sides = means.iter().map(|(side, ..)| side.name());
+    let label = format!("Mean {}", sides.collect::<Vec<_>>().join(", "));
+    let figures = means.iter().map(|(_, mean, share)| {
+        let mean = document_unit::length(ui.ctx(), figures::significant(*mean, 4));
+        format!("{mean} ({:.0} %)", 100.0 * share)
+    });
+    let figures = figures.collect::<Vec<_>>().join(", ");
+    widgets::figure_row(ui, &label, &figures)
+        .on_hover_text("Mean distance on each side of the curve, and the share of places there");
 }
 
 /// A place of a curve or a reference in words.

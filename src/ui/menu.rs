@@ -134,9 +134,14 @@ pub fn units() -> Vec<Entry> {
 
 /// The curves and references to compare the active one with, in a menu of their own.
 pub fn compare(editor: &Editor) -> Entry {
-    let others = others(editor).into_iter().map(|(id, _)| Some(id));
-    let compare = [None].into_iter().chain(others).map(Command::Compare);
+    let compare = [Command::Compare(None)].into_iter().chain(compared(editor));
     Entry::Submenu("Compare with", compare.map(command).collect())
+}
+
+/// The commands that compare the active curve or reference with each of the others.
+pub fn compared(editor: &Editor) -> impl Iterator<Item = Command> {
+    let others = others(editor).into_iter();
+    others.map(|(id, _)| Command::Compare(Some(id)))
 }
 
 /// The layers, as a menu of their own.
@@ -253,7 +258,10 @@ fn menus(editor: &Editor) -> [(&'static str, Vec<Entry>); 6] {
         Divider,
         command(Command::ToggleVisible),
         command(Command::ToggleLocked),
+        command(Command::Group),
+        command(Command::Ungroup),
         command(Command::Isolate),
+        command(Command::ShowAll),
     ]);
     let mut view = vec![
         command(Command::Fit),

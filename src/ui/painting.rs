@@ -134,7 +134,7 @@ impl Brush<'_> {
         self.evolute(&curve.evolute, evolute);
         // Combs of several curves are compared: they fade as the curves do.
         let comb = |colour: Color32| colour.gamma_multiply(own_strength(curve));
-        self.hairs(&curve.teeth, comb(tokens.comb_teeth));
+        self.hairs(&curve.teeth, 1.0, comb(tokens.comb_teeth));
         self.chain(&curve.comb, Stroke::new(1.0, comb(tokens.comb)));
         self.legs(&curve.clamped, true, Stroke::new(1.0, fade(tokens.clamped)));
         let float = if curve.active { 1.25 } else { 1.0 };
@@ -279,10 +279,10 @@ impl Brush<'_> {
         self.square(vertex.at, side, Color32::TRANSPARENT, outline);
     }
 
-    /// Paint many hair lines as one mesh: a shape for each would cost half the frame rate.
-    fn hairs(&self, segments: &[[DVec2; 2]], colour: Color32) {
+    /// Paint many thin lines, so many pixels wide, as one mesh: a shape for each would cost half the frame rate.
+    fn hairs(&self, segments: &[[DVec2; 2]], width: f32, colour: Color32) {
         let mut mesh = Mesh::default();
-        let feather = 1.0 / self.painter.pixels_per_point();
+        let feather = width / self.painter.pixels_per_point();
         for segment in segments {
             if let Some([from, to]) = self.screen.segment(*segment) {
                 hair(&mut mesh, from, to, feather, colour);
@@ -380,8 +380,11 @@ impl Brush<'_> {
             }
             Mark::Label(at, text) => self.text_beside(*at, text, others),
             Mark::Whiskers { lines, beyond } => {
-                let colour = if *beyond { tokens.error } else { tokens.target };
-                self.hairs(lines, colour);
+                // Those beyond the limit differ by their strength too: colours alone are told apart by few.
+                match beyond {
+                    true => self.hairs(lines, 2.0, tokens.error),
+                    false => self.hairs(lines, 1.0, tokens.target),
+                }
             }
             Mark::Points {
                 kept,
@@ -567,7 +570,7 @@ fn fading(curve: &CurveScene) -> impl Fn(Color32) -> Color32 {
     }
 }
 
-/// Append a line one pixel wide with soft edges.
+/// Append a line with soft edges, as wide as each of them.
 fn hair(mesh: &mut Mesh, from: Pos2, to: Pos2, feather: f32, colour: Color32) {
     let along = to - from;
     if along.length_sq() < 0.01 {

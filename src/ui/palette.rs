@@ -8,6 +8,7 @@ use nucleo_matcher::pattern::{AtomKind, CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 
 use super::action::Action;
+use super::menu::compared;
 use super::menu_item::beside;
 use super::theme::{self, ROW, STEP, Tokens};
 use super::{icons, widgets};
@@ -81,7 +82,7 @@ impl Palette {
         if field.changed() {
             self.chosen = 0;
         }
-        let found = matches(&self.typed, |action| action.is_enabled(editor));
+        let found = matches(&self.typed, editor);
         self.open &= !is_left;
         let moved = self.chosen as i64 + steps;
         self.chosen = moved.clamp(0, found.len().max(1) as i64 - 1) as usize;
@@ -141,7 +142,7 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> Respons
         widgets::icon(ui, place, icon, colour);
     }
     let label = inner.with_min_x(inner.left() + 7.0 * STEP);
-    widgets::label_in(ui, label, &action.label_now(editor), colour);
+    widgets::label_in(ui, label, &action.title_now(editor), colour);
     if let Some(text) = beside(action, editor) {
         let (align, font) = (Align2::RIGHT_CENTER, theme::small_font());
         widgets::text_in(ui, inner, align, text, font, tokens.faint_text);
@@ -162,28 +163,34 @@ fn help_ui(ui: &mut Ui, text: &str) {
 
 /// The commands whose names hold the typed words, best first, or else those whose tooltips do, or whose names resemble
 /// them; those that are available before others. All of them without a text.
-fn matches(typed: &str, is_available: impl Fn(Action) -> bool) -> Vec<Action> {
-    let all = Action::all();
+fn matches(typed: &str, editor: &Editor) -> Vec<Action> {
+    let mut all = Action::all();
     if typed.trim().is_empty() {
         return all;
     }
+    all.extend(compared(editor).map(Action::from));
     let ways: [(Text, AtomKind); 3] = [
         (Action::words, AtomKind::Substring),
-        (Action::tooltip, AtomKind::Substring),
+        (|action, _| action.tooltip(), AtomKind::Substring),
         (Action::words, AtomKind::Fuzzy),
     ];
-    let found = ways.map(|(text, kind)| scored(&all, typed, text, kind));
+    let found = ways.map(|(text, kind)| scored(&all, typed, |action| text(action, editor), kind));
     let mut found = found.into_iter().filter(|found| !found.is_empty());
     let mut found = found.next().unwrap_or_default();
-    found.sort_by_key(|action| !is_available(*action));
+    found.sort_by_key(|action| !action.is_enabled(editor));
     found
 }
 
 /// A text that is searched for what is typed.
-type Text = fn(Action) -> String;
+type Text = fn(Action, &Editor) -> String;
 
 /// The commands with a text that resembles the typed one, best first.
-fn scored(all: &[Action], typed: &str, text: Text, kind: AtomKind) -> Vec<Action> {
+fn scored(
+    all: &[Action],
+    typed: &str,
+    text: impl Fn(Action) -> String,
+    kind: AtomKind,
+) -> Vec<Action> {
     let mut matcher = Matcher::new(Config::DEFAULT);
     let pattern = Pattern::new(typed, CaseMatching::Ignore, Normalization::Smart, kind);
     let mut buffer = Vec::new();
@@ -217,10 +224,31 @@ mod tests {
 
     #[test]
     fn of_names_that_match_as_well_the_shorter_one_comes_first_then_the_one_that_begins_so() {
-        // Without a picture there is none to link anew.
-        let is_available = |action: Action| action.label() != "Relink picture…";
-        let first = |typed: &str| matches(typed, is_available).first().map(|it| it.label());
+        let editor = Editor::default();
+        let first = |typed: &str| matches(typed, &editor).first().map(|it| it.label());
         let told = ["comb", "picture"].map(|typed| first(typed).unwrap_or_default());
         assert_eq!(told, ["Curvature comb", "Picture to trace…"]);
+    }
+
+    #[test]
+    fn other_words_for_a_command_find_it() {
+        let editor = Editor::default();
+        let found = |typed: &str| {
+            let found = matches(typed, &editor).into_iter();
+            found.map(|it| it.label()).collect::<Vec<_>>()
+        };
+        for (typed, label) in [
+            ("two views", "Two panes"),
+            ("deviation", "Compare with nothing"),
+            ("flip", "Mirror…"),
+            ("unhide", "Show all curves"),
+            ("zoom to fit", "Fit all"),
+        ] {
+            assert_eq!(
+                found(typed).first().map(String::as_str),
+                Some(label),
+                "{typed}"
+            );
+        }
     }
 }

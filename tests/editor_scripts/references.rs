@@ -384,7 +384,16 @@ fn its_distance_from_a_curve_is_measured_and_marked() {
     // It follows a drag, and is not marked where one of both is hidden.
     script.editor.activate(arc);
     script.command(Command::Compare(Some(circle)));
-    script.drag_vertex(3, DVec2::new(0.0, -30.0));
+    script.editor.refresh();
+    let scale = script.editor.sight().deviation_scale();
+    let from = script.at_vertex(3);
+    script.press(from);
+    script.move_to(from - DVec2::new(0.0, 400.0));
+    script.editor.refresh();
+    let sight = script.editor.sight();
+    assert_eq!(sight.deviation_scale(), scale, "whiskers keep their scale");
+    script.move_to(from - DVec2::new(0.0, 30.0));
+    script.release(from - DVec2::new(0.0, 30.0));
     script.editor.refresh();
     let dragged = script.editor.sight().deviation().expect("a deviation");
     let from_arc = dragged.sides[0].as_ref().expect("the arc's side");
@@ -724,7 +733,10 @@ fn commands_of_curves_do_nothing_to_a_reference() {
                 | Command::DeleteCurve
                 | Command::ToggleVisible
                 | Command::ToggleLocked
+                | Command::Group
+                | Command::Ungroup
                 | Command::Isolate
+                | Command::ShowAll
                 | Command::SetUnit(_)
                 | Command::ConvertUnit(_)
                 | Command::Undo

@@ -1,6 +1,6 @@
 //! Several curves and references, selected together: by clicks, by a box, and what commands make of them.
 
-use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, Group, MatchPlace};
 use batten::editor::{CombsOf, Command, CopyForm, Editor, Key, Layer, Modifiers};
 use batten::geometry::references::KINDS;
 use batten::geometry::{Continuity, End, FloatPolygon};
@@ -323,6 +323,51 @@ fn the_matches_that_a_deletion_of_several_dissolves_are_told() {
     );
     script.command(Command::Undo);
     assert_eq!(script.editor.document().matches().len(), 1);
+}
+
+#[test]
+fn all_that_is_hidden_is_shown_in_one_step() {
+    let (mut script, ids) = four();
+    assert!(!Command::ShowAll.is_enabled(&script.editor), "nothing is");
+    for id in [ids[1], ids[3]] {
+        hide(&mut script, id);
+    }
+    let steps = script.steps();
+    script.command(Command::ShowAll);
+    let document = script.editor.document();
+    assert!(ids.iter().all(|id| document.is_visible(*id)));
+    assert_eq!(script.steps(), steps + 1);
+    script.command(Command::Undo);
+    assert!(!script.editor.document().is_visible(ids[3]));
+}
+
+#[test]
+fn a_group_of_the_selection_lies_within_the_group_that_holds_it() {
+    let (mut script, [arc, other, short, circle]) = four();
+    let groups = |script: &Script| {
+        let group = |id| script.editor.document().group(id).map(Group::to_string);
+        [arc, other, short, circle].map(|id| group(id).unwrap_or_default())
+    };
+    script.editor.hand_mut().select_items([arc, other, circle]);
+    script.command(Command::Group);
+    assert_eq!(groups(&script), ["group 1", "group 1", "", "group 1"]);
+    script.editor.hand_mut().select_items([arc, other]);
+    script.command(Command::Group);
+    let inner = "group 1/group 1";
+    assert_eq!(groups(&script), [inner, inner, "", "group 1"]);
+    script.editor.hand_mut().select_items([arc, short]);
+    script.command(Command::Group);
+    assert_eq!(groups(&script), ["group 2", inner, "group 2", "group 1"]);
+    script
+        .editor
+        .hand_mut()
+        .select_items([other, short, circle]);
+    let steps = script.steps();
+    script.command(Command::Ungroup);
+    assert_eq!(groups(&script), ["group 2", "group 1", "", ""]);
+    assert_eq!(script.steps(), steps + 1);
+    script.editor.activate(short);
+    assert!(!Command::Ungroup.is_enabled(&script.editor));
 }
 
 #[test]

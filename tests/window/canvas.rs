@@ -90,7 +90,7 @@ fn a_badge_leads_back_from_a_stray_turn_of_the_view() {
 fn vertices_are_dragged_in_panes() {
     let mut window = open_window();
     let whole = window.state().canvas_rect().expect("a canvas");
-    choose(&mut window, &["View", "Panes", "Four views"]);
+    choose(&mut window, &["View", "Panes", "Four panes"]);
     for name in ["Top", "Isometric", "Front", "Right"] {
         assert!(
             window.query_by_label(&format!("Pane: {name}")).is_some(),
@@ -130,7 +130,7 @@ fn vertices_are_dragged_in_panes() {
     // Two panes may see the model from the same side.
     press(&mut window, Modifiers::NONE, Key::F3);
     assert_eq!(window.query_all_by_label("Pane: Top").count(), 2);
-    choose(&mut window, &["View", "Panes", "One view"]);
+    choose(&mut window, &["View", "Panes", "One pane"]);
     assert_eq!(window.state().canvas_rect(), Some(whole));
 }
 

@@ -49,8 +49,14 @@ pub enum Command {
     ToggleVisible,
     /// Lock or unlock the selected curves and references.
     ToggleLocked,
+    /// Put the selected curves and references in a group of their own.
+    Group,
+    /// Take the selected curves and references out of their groups.
+    Ungroup,
     /// Hide what is not selected, or show it again.
     Isolate,
+    /// Show what is hidden.
+    ShowAll,
     /// Align or distribute what is selected.
     Arrange(Arrangement),
     /// Fit the selected vertices, or the selected curves.
@@ -185,7 +191,10 @@ impl Command {
             Self::ToggleSymmetric,
             Self::ToggleVisible,
             Self::ToggleLocked,
+            Self::Group,
+            Self::Ungroup,
             Self::Isolate,
+            Self::ShowAll,
         ];
         all.extend(Arrangement::ALL.map(Self::Arrange));
         all.extend(Self::units());
@@ -237,7 +246,10 @@ impl Command {
             Self::ConvertUnit(unit) => return format!("Convert document to {}", unit.name()),
             Self::ToggleVisible => "Visible",
             Self::ToggleLocked => "Locked",
+            Self::Group => "Group",
+            Self::Ungroup => "Ungroup",
             Self::Isolate => "Isolate",
+            Self::ShowAll => "Show all curves",
             Self::Arrange(arrangement) => arrangement.label(),
             Self::Fit => "Fit selection",
             Self::FitAll => "Fit all",
@@ -301,7 +313,10 @@ impl Command {
             Self::ToggleLocked => {
                 "Protect the shapes of selected curves from edits, or release them"
             }
+            Self::Group => "Put the selected curves and references in a new group",
+            Self::Ungroup => "Take the selected curves and references out of their group",
             Self::Isolate => "Show only what is selected; again, show what that has hidden",
+            Self::ShowAll => "Show every curve, reference and picture that is hidden",
             Self::Arrange(arrangement) => arrangement.tooltip(),
             Self::Fit => "Show the selected vertices, or the selected curves if fewer than two are",
             Self::FitAll => "Zoom to fit everything",
@@ -365,6 +380,8 @@ impl Command {
             Self::SelectAll => ctrl('a'),
             Self::SelectNone => ctrl_shift('a'),
             Self::ToggleVerticesLocked => plain(Key::Character('l')),
+            Self::Group => ctrl('g'),
+            Self::Ungroup => ctrl_shift('g'),
             Self::Isolate => plain(Key::Character('o')),
             Self::Fit => plain(Key::Character('f')),
             Self::FitAll => plain(Key::Character('h')),

@@ -277,7 +277,10 @@ impl Editor {
             Command::ToggleSymmetric => Change::symmetry(document, &items)?,
             Command::ToggleVisible => Change::visibility(document, &items)?,
             Command::ToggleLocked => Change::lock(document, &items)?,
+            Command::Group => Change::grouping(document, &items)?,
+            Command::Ungroup => Change::ungrouping(document, &items)?,
             Command::Isolate => Change::isolation(document, &items, &self.hand.isolated)?,
+            Command::ShowAll => Change::showing(document)?,
             _ => return Ok(Note::silent()),
         };
         let deleted = match command {

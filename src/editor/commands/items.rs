@@ -1,6 +1,6 @@
 //! Commands on the selected curves and references: the edits of one step, and what it leaves out.
 
-use crate::document::{Curve, CurveId, Document, Edit, Reference, quoted};
+use crate::document::{Curve, CurveId, Document, Edit, Group, Reference, free_name, quoted};
 use crate::editor::polygon_edits::periodicity;
 use crate::editor::reply::Refusal;
 use crate::editor::sharper::sharper_radius;
@@ -89,6 +89,40 @@ impl Change {
         })
     }
 
+    /// Put the items in a new group, within the group that all of them are in.
+    pub fn grouping(document: &Document, items: &[CurveId]) -> Result<Self, Refusal> {
+        let groups = || document.all_ids().filter_map(|id| document.group(id));
+        let own = items.iter().filter_map(|id| document.group(*id));
+        let shared = own.cloned().reduce(|shared, group| shared.shared(&group));
+        let shared = shared.unwrap_or_default();
+        let made = |name: &str| Group::new(shared.names().iter().map(String::as_str).chain([name]));
+        let is_taken = |name: &str| groups().any(|group| made(name).holds(group));
+        let group = made(&free_name("group 1", is_taken));
+        let label = |taken: &[CurveId]| format!("Group {}", noun(document, taken));
+        Self::of(items.iter().copied(), label, |curve| {
+            Ok(Edit::SetGroup {
+                curve,
+                group: group.clone(),
+            })
+        })
+    }
+
+    /// Take the items out of the innermost group that each is in.
+    pub fn ungrouping(document: &Document, items: &[CurveId]) -> Result<Self, Refusal> {
+        let label = |taken: &[CurveId]| format!("Ungroup {}", noun(document, taken));
+        let grouped = items.iter().copied().filter(|id| {
+            let group = document.group(*id);
+            group.is_some_and(|group| !group.is_none())
+        });
+        Self::of(grouped, label, |curve| {
+            let group = document.group(curve).cloned().unwrap_or_default();
+            Ok(Edit::SetGroup {
+                curve,
+                group: group.outer(),
+            })
+        })
+    }
+
     /// Hide what is visible beside the items, or show again what of `hidden` is hidden still.
     pub fn isolation(
         document: &Document,
@@ -112,6 +146,22 @@ impl Change {
         };
         Self::of(changed, label, |curve| {
             Ok(Edit::SetVisible { curve, visible })
+        })
+    }
+
+    /// Show everything that is hidden.
+    pub fn showing(document: &Document) -> Result<Self, Refusal> {
+        let all: Vec<CurveId> = document.all_ids().collect();
+        let hidden = hidden_still(document, &all);
+        if hidden.is_empty() {
+            return Err("Nothing is hidden".into());
+        }
+        let label = |taken: &[CurveId]| format!("Show {}", noun(document, taken));
+        Self::of(hidden, label, |curve| {
+            Ok(Edit::SetVisible {
+                curve,
+                visible: true,
+            })
         })
     }
 

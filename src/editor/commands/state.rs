@@ -23,7 +23,12 @@ impl Command {
             | Command::DeleteCurve
             | Command::ToggleVisible
             | Command::ToggleLocked
+            | Command::Group
             | Command::Isolate => active,
+            Command::Ungroup => {
+                let mut groups = items.iter().filter_map(|id| document.group(*id));
+                groups.any(|group| !group.is_none())
+            }
             Command::Arrange(arrangement) => {
                 let selection = &editor.hand.selection;
                 let count = match selection.is_empty() {
@@ -46,6 +51,7 @@ impl Command {
             }
             Command::Match(source, level) => end_matches::edits(editor, source, level).is_some(),
             Command::RemoveGuides => !editor.document().guide_lines().is_empty(),
+            Command::ShowAll => document.all_ids().any(|id| !document.is_visible(id)),
             Command::GoToFeature => editor.view.chosen_feature().is_some(),
             Command::Compare(other) => active && other.is_none_or(can_compare),
             // A drag moves vertices in the plane of this view.
@@ -68,7 +74,9 @@ impl Command {
             | Command::DeleteCurve
             | Command::ToggleVisible
             | Command::ToggleLocked
+            | Command::Group
             | Command::Isolate => "select a curve first".to_owned(),
+            Command::Ungroup => "select curves of a group first".to_owned(),
             Command::ToggleVerticesLocked => "select vertices first".to_owned(),
             Command::Arrange(arrangement) => {
                 format!("select {} curves or vertices first", arrangement.least())
@@ -78,6 +86,7 @@ impl Command {
             }
             Command::Operation(operation) => editor.input_of(operation).err()?.to_string(),
             Command::RemoveGuides => "there are none; drag one from a ruler".to_owned(),
+            Command::ShowAll => "nothing is hidden".to_owned(),
             Command::GoToFeature => "choose a feature in its list first".to_owned(),
             _ => return None,
         };

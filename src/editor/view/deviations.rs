@@ -10,6 +10,7 @@ use crate::editor::view::shown::Shown;
 use crate::editor::view::sight::Sight;
 use crate::editor::view::view::View;
 use crate::editor::view::whiskers::Whiskers;
+use crate::geometry::expressions::LengthUnit;
 use crate::geometry::figure;
 
 impl View {
@@ -22,6 +23,22 @@ impl View {
             ids,
             items: [first?, second?],
         })
+    }
+
+    /// Give the whiskers of the deviation a scale that suits them, unless they have one that still does. While the hand
+    /// holds something they keep theirs.
+    pub(super) fn suit_whiskers(&mut self, is_holding: bool) {
+        let Some(deviation) = self.comparing.deviation() else {
+            self.suited_scale = None;
+            return;
+        };
+        if is_holding && self.suited_scale.is_some() {
+            return;
+        }
+        let largest = deviation.largest().map_or(0.0, |(_, it)| it.distance());
+        let places: Vec<DVec3> = deviation.whiskers().map(|it| it.places[0]).collect();
+        let suiting = Whiskers::default().scale_for(&places, largest);
+        self.suited_scale = Some(Whiskers::kept_scale(self.suited_scale, suiting));
     }
 }
 
@@ -39,12 +56,8 @@ impl<'a> Sight<'a> {
 
     /// The scale at which the whiskers of the deviation are drawn.
     pub fn deviation_scale(self) -> f64 {
-        let Some(deviation) = self.deviation() else {
-            return 1.0;
-        };
-        let largest = deviation.largest().map_or(0.0, |(_, it)| it.distance());
-        let places: Vec<DVec3> = deviation.whiskers().map(|it| it.places[0]).collect();
-        self.view.whiskers.scale_for(&places, largest)
+        let whiskers = &self.view.whiskers;
+        whiskers.scale.or(self.view.suited_scale).unwrap_or(1.0)
     }
 
     /// Mark the distances on the canvas, and where the largest is.
@@ -75,10 +88,11 @@ impl<'a> Sight<'a> {
         }
         if let Some((_, largest)) = deviation.largest() {
             let [from, to] = largest.places.map(seen);
+            let length = LengthUnit::behind(self.document().unit(), figure(largest.distance()));
             marks.push(Mark::Ruler([from, to]));
             marks.push(Mark::Extreme {
                 at: from,
-                text: format!("distance {}", figure(largest.distance())),
+                text: format!("distance {length}"),
             });
         }
         marks

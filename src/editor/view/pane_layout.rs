@@ -27,9 +27,9 @@ impl PaneLayout {
     /// What menus call it.
     pub fn label(self) -> &'static str {
         match self {
-            Self::One => "One view",
-            Self::Two => "Two views",
-            Self::Four => "Four views",
+            Self::One => "One pane",
+            Self::Two => "Two panes",
+            Self::Four => "Four panes",
         }
     }
 

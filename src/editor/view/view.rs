@@ -66,8 +66,10 @@ pub struct View {
     pub combs_of: CombsOf,
     /// Whether the evolute of the active curve is drawn where it would cover much of the view.
     pub evolute: EvoluteCrowd,
-    /// How distances of points that are fitted are drawn.
+    /// How distances are drawn.
     pub whiskers: Whiskers,
+    /// The scale that was last made to suit the distances of the deviation; `None` without one.
+    pub(super) suited_scale: Option<f64>,
     pub(in crate::editor) hovered: Hovered,
     /// The marks of panels in the frame before, for panels that come first.
     pub(in crate::editor) hovered_before: Hovered,
@@ -212,6 +214,7 @@ impl View {
             .update(shown.document(), &self.analyses, tolerance);
         let pair = self.compared_pair(shown);
         self.comparing.advance(pair, patience);
+        self.suit_whiskers(shown.is_holding);
     }
 
     /// List the features of the active curve once all are proved, those of a reference as its samples show.

@@ -9,6 +9,10 @@ use crate::geometry::bounds;
 /// The share of the size of the points that the longest whisker has at most, without a scale of the user's own.
 const LONGEST: f64 = 0.05;
 
+/// How much longer or shorter than by a scale made to suit them the whiskers may get before they get another one: a
+/// scale that changes with each distance says nothing about what a drag does.
+const SUITABLE: RangeInclusive<f64> = 0.1..=2.5;
+
 /// How whiskers are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Whiskers {
@@ -36,6 +40,12 @@ impl Whiskers {
         // No distance, or no number.
         let scale = if scale.is_finite() { scale } else { 1.0 };
         scale.clamp(least, most)
+    }
+
+    /// The scale that whiskers keep, of the one they have and the one that suits the distances now.
+    pub(super) fn kept_scale(had: Option<f64>, suiting: f64) -> f64 {
+        let is_suitable = |had: &f64| SUITABLE.contains(&(had / suiting));
+        had.filter(is_suitable).unwrap_or(suiting)
     }
 
     /// The whisker of a point with its nearest place: from that place through the point.
@@ -80,5 +90,19 @@ mod tests {
             ..own
         };
         assert_eq!(given.scale_for(&points, 3e-4), 37.0);
+    }
+
+    #[test]
+    fn a_scale_is_kept_while_its_whiskers_can_be_read() {
+        let kept = Whiskers::kept_scale;
+        assert_eq!(kept(None, 50.0), 50.0);
+        assert_eq!(
+            [20.0, 50.0, 500.0].map(|it| kept(Some(50.0), it)),
+            [50.0; 3]
+        );
+        assert_eq!(
+            [10.0, 1000.0].map(|it| kept(Some(50.0), it)),
+            [10.0, 1000.0]
+        );
     }
 }

@@ -89,6 +89,9 @@ pub enum CurveSide {
 }
 
 impl CurveSide {
+    /// Every side.
+    pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Inside, Self::Outside];
+
     /// Its name in one word.
     pub fn name(self) -> &'static str {
         match self {
