@@ -6,6 +6,7 @@ use std::fmt;
 use super::airfoil_order::AirfoilOrder;
 use super::file_match::FileMatch;
 use super::table_column::TableColumn;
+use super::table_points::nameless;
 use crate::document::{
     Curve, CurveId, Document, EditError, EndMatch, Extras, GuideLine, Reference, quoted,
 };
@@ -182,6 +183,19 @@ impl Reading {
         let matches = matches.map(|matched| matched.between(&curves, &references));
         let matches: Vec<EndMatch> = matches.collect::<Result<_, _>>()?;
         document.with_matches(matches)
+    }
+
+    /// Name lists of points that say no name after their file: a document may hold those of several.
+    pub fn name_lists(&mut self, file: &str) {
+        let is_alone = self.references.len() == 1;
+        for (number, reference) in (1..).zip(&mut self.references) {
+            if reference.points().is_some() && reference.name == nameless(number) {
+                reference.name = match is_alone {
+                    true => file.to_owned(),
+                    false => format!("{file} {number}"),
+                };
+            }
+        }
     }
 
     /// Whether there is neither a curve nor a reference.

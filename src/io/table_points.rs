@@ -515,7 +515,7 @@ impl<'a> PointReader<'a> {
         let number = self.lists.len() + 1;
         self.lists.push(List {
             line: first,
-            name: name.unwrap_or_else(|| format!("points {number}")),
+            name: name.unwrap_or_else(|| nameless(number)),
             rows,
             is_on_earth,
         });
@@ -560,6 +560,11 @@ impl<'a> PointReader<'a> {
         });
         Ok(Reference::new(name.clone(), curve?))
     }
+}
+
+/// What a list of points is called that says no name, by its number from 1.
+pub(super) fn nameless(number: usize) -> String {
+    format!("points {number}")
 }
 
 impl Layout {

@@ -94,10 +94,13 @@ impl ImportPanel {
         // A number that Enter ends is taken first; the Enter that asked for files is no answer.
         let is_typing = is_new || keyboard::typing(ui.ctx()) == Typing::Text;
         let files = &question.files;
-        let verb = if question.replaces { "Open" } else { "Import" };
+        let (verb, place) = match question.replaces {
+            true => ("Open", ""),
+            false => ("Add", " to the document"),
+        };
         ui.strong(match &files[..] {
-            [file] => format!("{verb} {}", name_of(&file.path)),
-            files => format!("{verb} {}", counted(files.len(), "file", "files")),
+            [file] => format!("{verb} {}{place}", name_of(&file.path)),
+            files => format!("{verb} {}{place}", counted(files.len(), "file", "files")),
         });
         let screen = ui.ctx().content_rect().height();
         let most = (screen - REST).clamp(LIST[0], LIST[1]);

@@ -58,7 +58,7 @@ fn a_file_without_a_unit_waits_for_what_is_taken() {
     assert_eq!(editor.document().unit(), Some(LengthUnit::Inch));
     assert_eq!(editor.document().references().count(), 2);
     let told: Vec<&str> = note.text.lines().collect();
-    assert_eq!(told[0], "2 references added");
+    assert_eq!(told[0], "2 references added to the document");
     assert!(
         told[1].ends_with("hull.dxf: 1 item not chosen, left out"),
         "{told:?}"
@@ -102,6 +102,24 @@ fn a_plain_file_comes_in_unasked_and_can_be_chosen_anew() {
         "in place of the first"
     );
     assert_eq!(editor.document().curves().count(), 1);
+}
+
+#[test]
+fn points_without_a_name_are_called_as_their_file() {
+    let folder = folder();
+    let table = "0 0\n1 0.5\n2 0\n";
+    let mut editor = Editor::new();
+    for name in ["scan 7.csv", "probe.csv"] {
+        let path = file(&folder, name, table);
+        editor.import(&[path]).expect("points");
+    }
+    let two = format!("{table}\n\n{table}");
+    editor
+        .import(&[file(&folder, "two.csv", &two)])
+        .expect("points");
+    let references = editor.document().references();
+    let names: Vec<&str> = references.map(|(_, it)| it.name.as_str()).collect();
+    assert_eq!(names, ["scan 7", "probe", "two 1", "two 2"]);
 }
 
 #[test]

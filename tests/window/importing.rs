@@ -26,7 +26,7 @@ fn layers_kinds_and_units_of_a_drawing_are_chosen_before_it_comes_in() {
     let path = folder.path().join("hull.dxf");
     std::fs::write(&path, dxf(None, &LINES, 2)).expect("the file");
     drop_file(&mut window, &path);
-    window.get_by_label("Import “hull.dxf”");
+    window.get_by_label("Add “hull.dxf” to the document");
     window.get_by_label_contains("Not understood, left out: 2 HATCH, the first at line");
     window.get_by_label("Taken: 3 references; 120 × 45");
     click(&mut window, "Keel, line: 1");
@@ -40,7 +40,7 @@ fn layers_kinds_and_units_of_a_drawing_are_chosen_before_it_comes_in() {
     window.get_by_label("Taken: 3 references; 120 × 45");
     click(&mut window, "Take none");
     click(&mut window, "Deck, line: 2");
-    click(&mut window, "Import");
+    click(&mut window, "Add");
     assert_eq!(references(&window), 2);
     window.get_by_label_contains("1 item not chosen, left out");
 }
@@ -77,7 +77,7 @@ fn a_plain_drawing_says_what_came_and_leads_to_the_panel() {
     window.get_by_label_contains("2 references added");
     click(&mut window, "Choose…");
     window.get_by_label("Taken: 2 references; 120 × 45 mm");
-    click(&mut window, "Import");
+    click(&mut window, "Add");
     assert_eq!(references(&window), 2, "once, not twice");
     choose(&mut window, &["File", "Choose imported…"]);
     click(&mut window, "Cancel");

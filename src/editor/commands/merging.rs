@@ -106,7 +106,10 @@ impl Editor {
             Purpose::Import => {
                 self.add("Import curves", merged.edits)?;
                 self.look(Look::All);
-                let note = Note::done(with_lines(format!("{counted} added"), &lines));
+                let note = Note::done(with_lines(
+                    format!("{counted} added to the document"),
+                    &lines,
+                ));
                 Ok(self
                     .filing
                     .note_imported(incoming.files, note, &self.workspace))

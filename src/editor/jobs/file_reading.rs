@@ -195,6 +195,10 @@ impl FilesToRead {
                 (reading, Some(fingerprint))
             }
         };
+        if self.purpose != Purpose::Edit {
+            let stem = path.file_stem().unwrap_or_default();
+            reading.name_lists(&stem.to_string_lossy());
+        }
         let mut remarks = vec![std::mem::take(&mut reading.remarks).to_string()];
         remarks.retain(|lines| !lines.is_empty());
         let mut document = reading.into_document()?;
