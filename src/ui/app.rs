@@ -37,7 +37,7 @@ use crate::editor::{
     told,
 };
 
-use crate::io::{DXF, ExportChoice, Exporter, PROJECT, formats};
+use crate::io::{DXF, ExportChoice, Exporter, PROJECT, Scope, formats};
 
 /// Under which name the settings are kept.
 const SETTINGS: &str = "window";
@@ -506,10 +506,20 @@ impl App {
         match (exporter, last) {
             (None, Some(last)) => last,
             (Some(exporter), Some(last)) if last.format == exporter.format => last,
-            (exporter, _) => match exporter.or_else(first) {
-                Some(exporter) => ExportChoice::of(exporter),
-                None => ExportChoice::new(&DXF),
-            },
+            (exporter, _) => {
+                let choice = match exporter.or_else(first) {
+                    Some(exporter) => ExportChoice::of(exporter),
+                    None => ExportChoice::new(&DXF),
+                };
+                // One is selected always; several are by intent.
+                let has_several = self.editor.hand().selection().has_several_items();
+                let scope = if has_several {
+                    Scope::Selected
+                } else {
+                    choice.scope
+                };
+                ExportChoice { scope, ..choice }
+            }
         }
     }
 

@@ -225,6 +225,11 @@ fn references_have_joints_points_and_periodic_curves_have_none() {
     told(script.editor.apply("Add", vec![ring]));
     script.check();
     let third = ids(&script)[2];
+    // Points have no joints: all are listed, not none.
+    let points = script.editor.document().references().nth(1);
+    let points = points.expect("the points").0;
+    script.editor.activate(points);
+    assert_eq!(listed(&mut script).len(), 3);
     script.editor.activate(third);
     let found = listed(&mut script);
     assert_eq!(found.len(), 2);

@@ -1,8 +1,8 @@
 //! Clicks with the second button: what the menu that is asked for is about, and what is selected then.
 
 use batten::editor::{Button, Command, Input, MenuOf, MenuSubject, ToolKind};
-use batten::geometry::End;
 use batten::geometry::references::find;
+use batten::geometry::{End, FloatPolygon};
 use glam::DVec2;
 
 use super::script::Script;
@@ -72,6 +72,23 @@ fn an_end_is_the_one_that_the_end_fit_tool_then_has() {
         let report = script.end_fit().expect("a report");
         assert_eq!(report.end, end);
     }
+}
+
+#[test]
+fn of_an_end_and_a_vertex_beside_it_the_nearer_one_has_the_menu() {
+    let mut script = Script::example("s-curve");
+    let points = [(0.0, 0.0), (1.0, 0.02), (2.0, 0.0), (3.0, 1.0)];
+    script.set_polygon(FloatPolygon::planar(2, &points).expect("a polygon"));
+    // The end is midway between the first two vertices: seen from far, near both.
+    let away = |script: &Script| at_end(script, End::Start).distance(script.at_vertex(1));
+    while away(&script) > 5.0 {
+        script.command(Command::ZoomOut);
+    }
+    assert!(away(&script) > 1.5, "they are told apart");
+    let seen = at_end(&script, End::Start);
+    assert_eq!(ask(&mut script, seen), Some(MenuSubject::End));
+    let vertex = script.at_vertex(1);
+    assert_eq!(ask(&mut script, vertex), Some(MenuSubject::Vertex));
 }
 
 #[test]

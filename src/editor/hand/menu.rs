@@ -1,6 +1,6 @@
 //! Context menus: a click with the second button selects what it hits, the menu key takes the selection.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::document::{CurveId, Document};
 use crate::editor::hand::hand::Hand;
@@ -13,6 +13,9 @@ use crate::geometry::End;
 
 /// How near to a leg a click must be to hit it, in screen points.
 const LEG_REACH: f64 = 0.5 * REACH;
+
+/// How much nearer than a vertex an end must be to be hit instead, in screen points.
+const BESIDE: f64 = 1.0;
 
 /// The item that a click for a menu hits.
 #[derive(Clone, Debug)]
@@ -38,13 +41,23 @@ impl MenuTarget {
     /// Find what lies at a place on the canvas: a vertex, an end, a leg, a curve or nothing.
     pub(in crate::editor) fn at(at: DVec2, context: &Context) -> Self {
         let (hits, document) = (context.hits, context.document);
-        if let Some(vertex) = hits.vertex(at) {
+        let vertex = hits.vertex(at);
+        let end = end_at(at, context);
+        // A vertex beside an end does not take its menu.
+        let away = |vertex: VertexId| {
+            let curve = document.curve(vertex.0)?;
+            let place = *curve.polygon.vertices().get(vertex.1)?;
+            Some(distance(place, at, context.viewport))
+        };
+        let is_end_nearer = vertex.and_then(away).zip(end);
+        let is_end_nearer = is_end_nearer.is_some_and(|(away, (end, _))| end + BESIDE < away);
+        if let Some(vertex) = vertex.filter(|_| !is_end_nearer) {
             return Self {
                 vertices: vec![vertex],
                 ..Self::new(MenuSubject::Vertex, None)
             };
         }
-        if let Some((curve, end)) = end_at(at, context) {
+        if let Some((_, (curve, end))) = end {
             return Self {
                 end: Some(end),
                 ..Self::new(MenuSubject::End, Some(curve))
@@ -139,23 +152,26 @@ impl Hand {
     }
 }
 
-/// The end of an open curve that is seen at a place: that of the active curve, or the nearest of several.
-fn end_at(at: DVec2, context: &Context) -> Option<(CurveId, End)> {
-    let viewport = context.viewport;
+/// How far a point is seen from a place on the canvas.
+fn distance(point: DVec3, at: DVec2, viewport: &Viewport) -> f64 {
+    viewport.to_screen(viewport.flatten(point)).distance(at)
+}
+
+/// The end of an open curve that is seen at a place, and how far from it: that of the active curve, or the nearest of
+/// several.
+fn end_at(at: DVec2, context: &Context) -> Option<(f64, (CurveId, End))> {
     let curves = context.hits.curves();
     let open = curves.filter(|(_, curve)| !curve.polygon.is_periodic());
     let ends = open.flat_map(|(id, curve)| {
         End::BOTH.map(|end| {
             let place = curve.polygon.end_jet(end).point;
-            let seen = viewport.to_screen(viewport.flatten(place));
-            (seen.distance(at), (id, end))
+            (distance(place, at, context.viewport), (id, end))
         })
     });
     let near = ends.filter(|(distance, _)| *distance <= REACH);
     let is_other = |(_, (id, _)): &(f64, (CurveId, End))| context.selection.active() != Some(*id);
-    let nearest = near.min_by(|a, b| {
+    near.min_by(|a, b| {
         let by_activity = is_other(a).cmp(&is_other(b));
         by_activity.then(a.0.total_cmp(&b.0))
-    });
-    nearest.map(|(_, end)| end)
+    })
 }

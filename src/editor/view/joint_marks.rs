@@ -1,6 +1,9 @@
 //! The joints of curves on the canvas.
 
+use std::collections::BTreeSet;
+
 use crate::analysis::{CurveJoint, Joints};
+use crate::document::CurveId;
 use crate::editor::view::layers::Layer;
 use crate::editor::view::scene::Mark;
 use crate::editor::view::sight::Sight;
@@ -14,15 +17,20 @@ impl<'a> Sight<'a> {
         &self.view.joints
     }
 
-    /// The joints that panels list, each with its number: those of the selected items, all where none is selected.
+    /// The joints that panels list, each with its number: those of the selected items, all where none is selected, or
+    /// only references that have none.
     pub fn listed_joints(self) -> impl Iterator<Item = (usize, &'a CurveJoint)> {
-        let selection = self.shown.selection;
-        let (active, is_alone) = (selection.active(), selection.has_no_item());
-        let is_taken = move |id| match is_alone {
-            true => active.is_none_or(|active| active == id),
-            false => selection.has_item(id),
+        let items = self.shown.selection.items().into_iter();
+        let joints = self.joints().all();
+        let meets = |id: CurveId| {
+            joints
+                .iter()
+                .any(|it| it.ends.iter().any(|end| end.0 == id))
         };
-        let all = self.joints().all().iter().enumerate();
+        let counts = |id: &CurveId| self.document().curve(*id).is_some() || meets(*id);
+        let counted: BTreeSet<CurveId> = items.filter(counts).collect();
+        let is_taken = move |id| counted.is_empty() || counted.contains(&id);
+        let all = joints.iter().enumerate();
         all.filter(move |(_, joint)| joint.ends.iter().any(|(id, _)| is_taken(*id)))
     }
 
