@@ -3,6 +3,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use glam::DVec3;
+
 use super::error::OperationError;
 use crate::document::{Curve, CurveId, Document, Edit, Group, Reference, quoted};
 use crate::geometry::approximation::{
@@ -21,6 +23,9 @@ const LEAST: [usize; 3] = [4, 5, 8];
 /// A larger angle between the directions before and after a knot is a corner, in radians: about 0.06°. Smaller ones
 /// come from programs that keep six or seven digits.
 const CORNER: f64 = 1e-3;
+
+/// Ends that are no farther apart than this share of the size are one point: programs round coordinates.
+const CLOSED: f64 = 1e-9;
 
 /// The most levels of curvature and torsion whose features are kept.
 const LEVELS: usize = 2;
@@ -60,7 +65,7 @@ pub struct Floats {
 }
 
 /// Make the float polygons that stand for a smooth reference. Parts between corners become curves of their own, whose
-/// ends are exact.
+/// ends are exact; a reference that closes without any corner becomes a periodic one.
 ///
 /// # Errors
 /// [`OperationError`] if it has no points, a part cannot be approximated, or `progress` is cancelled before anything
@@ -76,7 +81,7 @@ pub fn floats_of(
     }
     curve.check_points()?;
     let tolerance = request.tolerance.unwrap_or(WITHIN * size(curve));
-    let parts = parts(curve)?;
+    let Parts { parts, is_round } = Parts::of(curve)?;
     let count = parts.len();
     let mut floats = Floats {
         curves: Vec::with_capacity(count),
@@ -90,12 +95,8 @@ pub fn floats_of(
     for (index, part) in parts.iter().enumerate() {
         let share = |index: usize| index as f64 / count as f64;
         let own = progress.part(share(index), share(index + 1));
-        let found = near(
-            part,
-            request.degree,
-            tolerance,
-            &own.hurried(1.0 / (count - index) as f64),
-        )?;
+        let own = own.hurried(1.0 / (count - index) as f64);
+        let found = near(part, is_round, request.degree, tolerance, &own)?;
         floats.vertices += found.polygon.vertices().len();
         floats.deviation = floats.deviation.max(found.distance());
         floats.is_bounded &= found.deviation.bounded;
@@ -186,6 +187,7 @@ impl Floats {
 /// nearest to that.
 fn near(
     part: &ReferenceCurve,
+    is_round: bool,
     degree: Option<usize>,
     tolerance: f64,
     progress: &Progress,
@@ -219,8 +221,8 @@ fn near(
             placing: Placing::Quasi,
             // Beyond the continuous derivatives levels jump at knots.
             levels: part.continuity().saturating_sub(1).min(LEVELS),
-            periodic: false,
-            fit_ends: true,
+            periodic: is_round,
+            fit_ends: !is_round,
         };
         let own = progress.hurried(1.0 / (degrees.len() - index) as f64);
         match approximate_to_tolerance(part, part.interval(), &goal, &asked, &own) {
@@ -240,35 +242,106 @@ fn near(
 }
 
 /// The parts of a reference between its corners, which only splines have.
-fn parts(curve: &ReferenceCurve) -> Result<Vec<ReferenceCurve>, OperationError> {
-    let ReferenceForm::Nurbs(nurbs) = curve.form() else {
-        return Ok(vec![curve.clone()]);
-    };
-    let corners = (1..curve.pieces()).filter(|piece| {
-        let [before, after] = [(piece - 1, 1.0), (*piece, 0.0)].map(|(piece, t)| {
-            let mut values = [glam::DVec3::ZERO; 2];
-            curve.fill_derivatives(piece, t, &mut values);
-            values[1]
+struct Parts {
+    parts: Vec<ReferenceCurve>,
+    /// Whether the only part closes without a corner.
+    is_round: bool,
+}
+
+impl Parts {
+    fn of(curve: &ReferenceCurve) -> Result<Self, OperationError> {
+        let ends = [(curve.pieces() - 1, 1.0), (0, 0.0)];
+        let [end, start] = ends.map(|(piece, t)| values_at(curve, piece, t));
+        let closes = start[0].distance(end[0]) <= CLOSED * size(curve);
+        let is_smooth = closes && end[1].angle_between(start[1]) <= CORNER;
+        let ReferenceForm::Nurbs(nurbs) = curve.form() else {
+            return Ok(Self {
+                parts: vec![curve.clone()],
+                is_round: is_smooth,
+            });
+        };
+        let corners = (1..curve.pieces()).filter(|piece| {
+            let [before, after] =
+                [(piece - 1, 1.0), (*piece, 0.0)].map(|(piece, t)| values_at(curve, piece, t)[1]);
+            // Where the curve stops there is no direction to compare.
+            before.angle_between(after) > CORNER
         });
-        // Where the curve stops there is no direction to compare.
-        before.angle_between(after) > CORNER
-    });
-    let mut parts = Vec::new();
-    let mut rest = nurbs.clone();
-    for piece in corners {
-        if let Some([before, after]) = divided(&rest, curve.parameter(piece as f64)) {
-            parts.push(before);
-            rest = after;
+        let mut parts = Vec::new();
+        let mut rest = nurbs.clone();
+        for piece in corners {
+            if let Some([before, after]) = divided(&rest, curve.parameter(piece as f64)) {
+                parts.push(before);
+                rest = after;
+            }
         }
+        let is_round = is_smooth && parts.is_empty();
+        let [from, to] = curve.interval();
+        // Of a closed one the last part goes on into the first.
+        let first = parts.first().filter(|_| is_smooth);
+        let joined = first.and_then(|first| followed(&rest, first, [from, to]));
+        let own = match &joined {
+            Some(_) => parts.split_off(1),
+            None => [parts, vec![rest]].concat(),
+        };
+        let own = own.into_iter().map(|part| {
+            let [start, end] = part.interval();
+            (part, [from.max(start), to.min(end)])
+        });
+        let joined = joined.into_iter().map(|part| {
+            let whole = part.interval();
+            (part, whole)
+        });
+        let placed = own.chain(joined).map(|(part, interval)| {
+            ReferenceCurve::new(ReferenceForm::Nurbs(part), interval, *curve.placement())
+        });
+        Ok(Self {
+            parts: placed.collect::<Result<_, _>>()?,
+            is_round,
+        })
     }
-    parts.push(rest);
-    let [from, to] = curve.interval();
-    let placed = parts.into_iter().map(|part| {
-        let [start, end] = part.interval();
-        let form = ReferenceForm::Nurbs(part);
-        ReferenceCurve::new(form, [from.max(start), to.min(end)], *curve.placement())
-    });
-    Ok(placed.collect::<Result<_, _>>()?)
+}
+
+/// The point and the derivative on a piece.
+fn values_at(curve: &ReferenceCurve, piece: usize, t: f64) -> [DVec3; 2] {
+    let mut values = [DVec3::ZERO; 2];
+    curve.fill_derivatives(piece, t, &mut values);
+    values
+}
+
+/// A spline that goes on into another one, exactly: clamped where they meet, at the ends of an interval that both come
+/// from. `None` where they are not, or where their interval is a part of them.
+fn followed(before: &Nurbs, after: &Nurbs, [from, to]: [f64; 2]) -> Option<Nurbs> {
+    let (degree, [knots, others]) = (before.degree(), [before.knots(), after.knots()]);
+    let last = knots.len().checked_sub(degree + 1)?;
+    let is_clamped = knots.get(last..)?.iter().all(|knot| *knot == to)
+        && others.get(..=degree)?.iter().all(|knot| *knot == from);
+    if !is_clamped || after.degree() != degree {
+        return None;
+    }
+    let shifted = others
+        .get(degree + 1..)?
+        .iter()
+        .map(|knot| knot - from + to);
+    let knots = knots.get(..knots.len() - 1)?.iter().copied();
+    let points = [before.points(), after.points().get(1..)?].concat();
+    let weights = match [before.weights(), after.weights()] {
+        [None, None] => None,
+        [own, others] => {
+            let own = own.map_or(vec![1.0; before.points().len()], <[f64]>::to_vec);
+            let others = others.map_or(vec![1.0; after.points().len()], <[f64]>::to_vec);
+            let share = own.last()? / others.first()?;
+            let others = others.iter().skip(1).map(|weight| share * weight);
+            Some(own.iter().copied().chain(others).collect())
+        }
+    };
+    Nurbs::new(
+        degree,
+        knots.chain(shifted).collect(),
+        points,
+        weights,
+        false,
+    )
+    .ok()
 }
 
 /// The parts of a spline before and after an inner knot at which it is not smooth, exactly; `None` at any other place.

@@ -591,6 +591,9 @@ fn features_are_kept_and_corners_divide_a_reference() {
         "{sheer}"
     );
     assert!(port.ends_with("; features kept"), "{port}");
+    let port = after.curves().find(|(_, curve)| curve.name == "port");
+    let port = port.expect("the circle").1;
+    assert!(port.polygon.is_periodic(), "it goes once round");
     assert!(
         chine.starts_with("“chine”: 2 curves between corners, "),
         "{chine}"
@@ -605,6 +608,68 @@ fn features_are_kept_and_corners_divide_a_reference() {
         one.distance(other) < 1e-9,
         "the corner stays: {one} and {other}"
     );
+}
+
+/// A closed path of cubic Béziers through points, with handles along their tangents: smooth but where two of them make
+/// an angle.
+fn path(sharp: &[usize]) -> ReferenceCurve {
+    let places = [(40.0, 0.0), (0.0, 25.0), (-30.0, 0.0), (0.0, -25.0)];
+    let at = |it: usize| {
+        let (x, y) = places[it % places.len()];
+        DVec3::new(x, y, 0.0)
+    };
+    let mut points = vec![at(0)];
+    for it in 0..places.len() {
+        let corner = at(it) + at(it + 1);
+        // A handle that leaves a sharp point straight for the next one.
+        let handle = |own: usize, other: usize| match sharp.contains(&(own % places.len())) {
+            true => at(own) + 0.4 * (at(other) - at(own)),
+            false => at(own) + 0.55 * (corner - at(own)),
+        };
+        points.extend([handle(it, it + 1), handle(it + 1, it), at(it + 1)]);
+    }
+    let knots = (0..=places.len()).flat_map(|it| {
+        let is_end = it == 0 || it == places.len();
+        vec![it as f64; if is_end { 4 } else { 3 }]
+    });
+    let nurbs = Nurbs::new(3, knots.collect(), points, None, false);
+    let form = ReferenceForm::Nurbs(nurbs.expect("a spline"));
+    ReferenceCurve::of(form).expect("a reference")
+}
+
+#[test]
+fn a_path_that_closes_smoothly_is_periodic_and_no_curve_ends_at_its_seam() {
+    let seam = DVec3::new(40.0, 0.0, 0.0);
+    for (sharp, curves) in [
+        (&[][..], 1),
+        (&[0], 1),
+        (&[2], 1),
+        (&[1, 3], 2),
+        (&[0, 2], 2),
+    ] {
+        let document = Document::default().with_references([Reference::new("path", path(sharp))]);
+        let given = [("tolerance", Value::List(vec![1e-2]))];
+        let (outcome, after) = converted(&document, &given);
+        assert!(outcome.reached, "{:?}", outcome.remarks);
+        let made: Vec<FloatPolygon> = after.curves().map(|it| it.1.polygon.clone()).collect();
+        assert_eq!(made.len(), curves, "{sharp:?}: {:?}", outcome.remarks);
+        let is_round = sharp.is_empty();
+        assert!(made.iter().all(|it| it.is_periodic() == is_round));
+        let ends = made.iter().filter(|it| !it.is_periodic());
+        let mut ends = ends.flat_map(|it| [0.0, it.segments() as f64].map(|u| it.point(u)));
+        assert_eq!(
+            ends.any(|end| end.distance(seam) < 1e-9),
+            sharp.contains(&0),
+            "{sharp:?}"
+        );
+        let reference = path(sharp);
+        for step in 0..=400 {
+            let point = reference.jet(step as f64 / 100.0).point;
+            let off = made.iter().map(|it| it.nearest(point).distance);
+            let off = off.fold(f64::INFINITY, f64::min);
+            assert!(off <= 1e-2, "{sharp:?} at {step}: {off}");
+        }
+    }
 }
 
 #[test]
