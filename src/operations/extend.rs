@@ -11,7 +11,7 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Kind, Parameter};
 use super::values::Values;
 use super::which_end::{END, end};
-use crate::document::{Edit, MatchPlace, ParameterSpan, quoted};
+use crate::document::ParameterSpan;
 use crate::geometry::{End, MAX_ADDED_SEGMENTS, Progress};
 
 const SEGMENTS: Parameter = Parameter {
@@ -46,21 +46,7 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
     let mut outcome = Outcome::renumbered(input, polygon.clone(), vec![span], Deviation::Exact)?;
     outcome.renumbered = end == End::Start;
     // What follows the end stays where it is; the new end has neither target nor match.
-    let was = MatchPlace::Parameter(shift as f64 + end.parameter(&curve.polygon));
-    for edit in &mut outcome.edits {
-        if let Edit::Renumber { renumbering, .. } = edit {
-            *renumbering = renumbering.clone().with_end(end, was);
-        }
-    }
-    let matches = input.document().matches();
-    let stays = matches.filter(|it| it.source == id && it.place == MatchPlace::End(end));
-    outcome.remarks.extend(stays.filter_map(|it| {
-        let name = quoted(input.document().name(it.curve)?);
-        Some(format!(
-            "{name} follows the place where the {} was",
-            end.name()
-        ))
-    }));
+    outcome.keep_followers(input, end, shift as f64 + end.parameter(&curve.polygon))?;
     let released = without_target(input.document(), id, curve, end);
     outcome.edits = released.chain(outcome.edits).collect();
     outcome.figures.push(segments);

@@ -256,6 +256,14 @@ fn completed(
     let middle = symmetric.point(0.5 * (whole.joint[0] + whole.joint[1]));
     let (count, closes) = (symmetric.vertices().len(), symmetric.is_periodic());
     let mut outcome = Outcome::renumbered(input, symmetric, spans, deviation_is)?;
+    // The end that meets its image is an end no more, unless another half goes on there.
+    if overshoots || span == [0.0, polygon.segments() as f64] {
+        let joint = match half {
+            Half::First => whole.joint[0],
+            Half::Second => whole.joint[1],
+        };
+        outcome.keep_followers(input, half.inner(), joint)?;
+    }
     for end in End::BOTH {
         if closes || end == half.inner() {
             let cut_off = without_target(input.document(), id, curve, end);
@@ -443,7 +451,9 @@ fn askew(joint: Joint, off: f64, tolerance: f64) -> String {
 fn bridged_over(kept: &KeptHalf) -> String {
     let end = kept.part.end_jet(kept.inner()).point;
     let [x, y, gap] = [end.x, end.y, kept.joint().gap].map(|it| significant(it, 3));
-    format!("The end at {x}, {y} is far from the axis: a bridge over {gap} joins it to its image")
+    format!(
+        "The end at {x}, {y} is far from the axis: a bridge over {gap} joins it to its image. “Mirror” as a copy leaves both apart"
+    )
 }
 
 /// Say that a half meets its image at a corner.

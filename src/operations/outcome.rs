@@ -9,7 +9,9 @@ use super::locks;
 use super::matches;
 use super::operands::Operands;
 use super::value::Value;
-use crate::document::{CurveId, Document, Edit, EditError, ParameterSpan, Renumbering};
+use crate::document::{
+    CurveId, Document, Edit, EditError, MatchPlace, ParameterSpan, Renumbering, quoted,
+};
 use crate::geometry::approximation::LevelComparison;
 use crate::geometry::fairing::requirement::{Check, Requirement};
 use crate::geometry::parameters::Quantity;
@@ -218,6 +220,33 @@ impl Outcome {
             }],
             ..Self::unchanged(deviation)
         })
+    }
+
+    /// Let what is matched to an end of the renumbered curve follow the place where that end was: `u` of its new
+    /// polygon.
+    pub(super) fn keep_followers(
+        &mut self,
+        input: &Operands,
+        end: End,
+        u: f64,
+    ) -> Result<(), OperationError> {
+        let (id, document) = (input.curve()?.0, input.document());
+        for edit in &mut self.edits {
+            if let Edit::Renumber { renumbering, .. } = edit {
+                let was = MatchPlace::Parameter(u);
+                *renumbering = renumbering.clone().with_end(end, was);
+            }
+        }
+        let matches = document.matches();
+        let stays = matches.filter(|it| it.source == id && it.place == MatchPlace::End(end));
+        self.remarks.extend(stays.filter_map(|it| {
+            let name = quoted(document.name(it.curve)?);
+            Some(format!(
+                "{name} follows the place where the {} was",
+                end.name()
+            ))
+        }));
+        Ok(())
     }
 
     /// Change nothing.

@@ -9,8 +9,10 @@ use super::bridge::{self, found};
 use super::error::OperationError;
 use super::half::KeptHalf;
 use super::join::{MERGING, TOLERANCE, WITHIN, merge_error};
-use crate::geometry::approximation::close_halves;
 use crate::geometry::approximation::merging::{MergeError, joint_of, merge};
+use crate::geometry::approximation::{
+    ApproximationRequest, Goal, Placing, approximate_to_tolerance, close_halves,
+};
 use crate::geometry::distance::SideDeviation;
 use crate::geometry::fairing::bridging::{Bridge, join};
 use crate::geometry::fitting::{PlaneFit, SymmetryAxis, fit_plane};
@@ -36,6 +38,9 @@ const FITTED: usize = 200;
 
 /// All of a half.
 pub(super) const WHOLE: [f64; 2] = [0.0, 1.0];
+
+/// The name of the method that bridges a gap.
+const BRIDGE: &str = "bridge";
 
 /// A half and its image in one.
 pub(super) struct Whole {
@@ -170,7 +175,7 @@ pub(super) fn bridged(
     Ok(Whole {
         joint: found.joint,
         kept: WHOLE,
-        method: "bridge",
+        method: BRIDGE,
         // Both parts have as many segments, so that the bridge lies in the middle.
         off: found.polygon.deviation(&symmetric)?,
         bounded: true,
@@ -194,9 +199,60 @@ pub(super) fn with_few_vertices(
     if count(&whole.polygon) <= most || whole.fault.is_some() {
         return Ok(whole);
     }
-    let fitted = refitted(kept, mirror, tolerance, progress)?;
+    let fitted = match whole.method {
+        // There are no points of the halves across a bridge: a fit would go its own way.
+        BRIDGE => approximated(&whole, mirror, tolerance, progress)?,
+        _ => refitted(kept, mirror, tolerance, progress)?,
+    };
     let fewer = fitted.filter(|fitted| count(&fitted.polygon) < count(&whole.polygon));
     Ok(fewer.unwrap_or(whole))
+}
+
+/// Approximate a half with its image and the bridge between them by fewer vertices; `None` if none are near.
+fn approximated(
+    whole: &Whole,
+    mirror: &Mirror,
+    tolerance: f64,
+    progress: &Progress,
+) -> Result<Option<Whole>, OperationError> {
+    let polygon = &whole.polygon;
+    let within = (1.0 - OF_CUT) * tolerance;
+    let goal = Goal {
+        tolerance: 0.5 * within,
+        spacing: None,
+        most_segments: polygon.segments(),
+    };
+    let asked = ApproximationRequest {
+        degree: polygon.degree(),
+        placing: Placing::Quasi,
+        levels: 1,
+        periodic: false,
+        fit_ends: true,
+    };
+    let all = [0.0, polygon.segments() as f64];
+    let limited = progress.limited(FITTING).unshown();
+    let Ok(found) = approximate_to_tolerance(polygon, all, &goal, &asked, &limited) else {
+        return match progress.is_cancelled() {
+            true => Err(OperationError::Cancelled),
+            false => Ok(None),
+        };
+    };
+    let fewer = found.polygon.symmetrised(mirror)?;
+    let off = SideDeviation::both_ways([polygon, &fewer], progress);
+    let off = whole.off + off.map_err(|_| OperationError::Cancelled)?;
+    Ok((off <= within).then_some(Whole {
+        joint: whole.joint.map(|u| {
+            let was = polygon.point(u);
+            fewer.nearest(was).u
+        }),
+        off,
+        bounded: false,
+        polygon: fewer,
+        kept: whole.kept,
+        method: BRIDGE,
+        fault: None,
+        knuckle: whole.knuckle.clone(),
+    }))
 }
 
 /// Fit one curve with few extrema to points of a half and of its image; `None` if none is near, or the mirror plane is none

@@ -128,3 +128,28 @@ fn a_reversed_curve_follows_with_its_other_end() {
         outcome.remarks
     );
 }
+
+#[test]
+fn what_follows_an_end_that_meets_its_image_stays_there() {
+    let (document, [first, second]) = matched(Continuity::G1, 9.0);
+    // The curve ends far from the axis, which a bridge reaches over: its end is inside afterwards.
+    let axis = [
+        ("from", Value::List(vec![12.0, 0.0])),
+        ("to", Value::List(vec![12.0, 1.0])),
+    ];
+    let outcome = run(&document, first, "make-symmetric", &axis).expect("it can run");
+    let after = outcome.applied_to(&document).expect("edits");
+    let polygon = |document: &Document, id| document.curve(id).expect("a curve").polygon.clone();
+    let was = polygon(&document, first).end_jet(End::Finish).point;
+    let now = polygon(&after, second).end_jet(End::Start).point;
+    let size = polygon(&document, first).size();
+    assert!(was.distance(now) <= 1e-3 * size, "{was} {now}");
+    let kept = after.match_of(second, End::Start).expect("a match");
+    assert!(matches!(kept.place, MatchPlace::Parameter(_)), "{kept:?}");
+    let told = "“second” follows the place where the end was";
+    assert!(
+        outcome.remarks.iter().any(|it| it == told),
+        "{:?}",
+        outcome.remarks
+    );
+}
