@@ -170,6 +170,7 @@ impl Keyboard {
             .into_iter()
             .filter_map(|command| Some((command.shortcut()?, command)))
             .filter(|(shortcut, _)| !(takes_numbers && is_number(shortcut)))
+            .filter(|(_, action)| !holding || can_be_given_in_a_drag(*action))
             .collect();
         let mut commands = Vec::new();
         context.input_mut(|input| {
@@ -281,6 +282,17 @@ fn pressed_shortcut(pressed: egui::Key, held: egui::Modifiers) -> Option<Shortcu
         shortcut.modifiers.shift = false;
     }
     Some(shortcut)
+}
+
+/// Whether a key gives its command while something is dragged: what changes curves or takes another tool would come by
+/// a slip of the other hand.
+fn can_be_given_in_a_drag(action: Action) -> bool {
+    match action {
+        Action::Command(command) => {
+            command.only_shows() || matches!(command, Command::Undo | Command::Redo)
+        }
+        _ => true,
+    }
 }
 
 /// Keys that people know from elsewhere.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use batten::document::Document;
-use batten::editor::Editor;
+use batten::editor::{Editor, ToolKind};
 use batten::geometry::expressions::LengthUnit;
 use batten::io::disk;
 use eframe::egui::{DroppedFile, Event, Key, Modifiers, Pos2, Vec2};
@@ -355,4 +355,19 @@ pub fn drop_file(window: &mut Window, path: &Path) {
     let file = Arc::new(Dropped(path.to_owned()));
     window.input_mut().dropped_files.push(file);
     window.run();
+}
+
+#[test]
+fn keys_of_commands_wait_for_the_end_of_a_drag() {
+    let mut window = in_mid_drag();
+    let before = curve(&window);
+    for key in [Key::Delete, Key::O, Key::D, Key::P] {
+        press(&mut window, Modifiers::NONE, key);
+        assert!(window.state().editor().hand().is_dragging(), "{key:?}");
+    }
+    press(&mut window, Modifiers::CTRL, Key::D);
+    let editor = window.state().editor();
+    assert_eq!(editor.document().curves().count(), 1);
+    assert_eq!(editor.hand().tool(), ToolKind::Select);
+    assert_eq!(curve(&window).polygon, before.polygon);
 }
