@@ -21,6 +21,9 @@ const LONG_LEG: f64 = 6.0 * REACH;
 /// A place at a smaller angle from a line, in radians, lies on it.
 const ON_LINE: f64 = 1e-12;
 
+/// How much farther than a vertex the end of a curve may be to come before it, in screen points.
+const AHEAD: f64 = 4.0;
+
 /// What goes along with a dragged point, and does not attract it.
 #[derive(Clone, Debug, Default)]
 pub struct Carried {
@@ -86,7 +89,7 @@ impl Snap {
 }
 
 /// Find what a dragged place of the view plane snaps to, or `None` if nothing is near: vertices, the middles of long
-/// legs, end points, targets, the points of lists, and the origin.
+/// legs, end points, targets, the points of lists, and the origin. An end comes before a vertex that lies beside it.
 ///
 /// Vertices that are carried along do not attract.
 pub fn snap_to_point(
@@ -97,11 +100,12 @@ pub fn snap_to_point(
 ) -> Option<Snap> {
     let reach = REACH * viewport.pixel();
     let mut best: Option<(f64, Snap)> = None;
-    let mut consider = |point: DVec3, name: &dyn Fn() -> String| {
+    let mut consider = |point: DVec3, ahead: f64, name: &dyn Fn() -> String| {
         let distance = viewport.flatten(point).distance(place);
-        let is_best = best.as_ref().is_none_or(|(nearest, _)| distance < *nearest);
+        let counted = distance - ahead * viewport.pixel();
+        let is_best = best.as_ref().is_none_or(|(nearest, _)| counted < *nearest);
         if distance <= reach && is_best {
-            best = Some((distance, Snap::to(point, name())));
+            best = Some((counted, Snap::to(point, name())));
         }
     };
     for (id, curve) in document.curves().filter(|(_, curve)| curve.visible) {
@@ -109,14 +113,16 @@ pub fn snap_to_point(
         for (index, vertex) in polygon.vertices().iter().enumerate() {
             let near = viewport.flatten(*vertex).distance(place) <= reach;
             if near && !carried.vertices.contains(&(id, index)) {
-                consider(*vertex, &|| format!("Vertex {index}"));
+                consider(*vertex, 0.0, &|| format!("Vertex {index}"));
             }
         }
         for end in End::BOTH {
             if let Some(target) = curve.targets.get(end)
                 && carried.target != Some((id, end))
             {
-                consider(target.point, &|| format!("Target of the {}", end.name()));
+                consider(target.point, 0.0, &|| {
+                    format!("Target of the {}", end.name())
+                });
             }
             let feels = |index| carried.vertices.contains(&(id, index));
             if !polygon.is_periodic() && !polygon.terminal_vertices(end).any(feels) {
@@ -124,7 +130,7 @@ pub fn snap_to_point(
                     End::Start => "Start",
                     End::Finish => "End",
                 };
-                consider(polygon.end_jet(end).point, &|| name.to_owned());
+                consider(polygon.end_jet(end).point, AHEAD, &|| name.to_owned());
             }
         }
     }
@@ -137,10 +143,10 @@ pub fn snap_to_point(
             jets.into_iter().flatten().map(|jet| jet.point).collect()
         };
         for point in reference.points().unwrap_or_else(ends) {
-            consider(point, &|| reference_name(id, document));
+            consider(point, 0.0, &|| reference_name(id, document));
         }
     }
-    consider(DVec3::ZERO, &|| "Origin".to_owned());
+    consider(DVec3::ZERO, 0.0, &|| "Origin".to_owned());
     let point = best.map(|(_, snap)| snap);
     // Ends of curves often lie beside the middle of a leg: they come first.
     point.or_else(|| snap_to_middle(place, document, carried, viewport))
@@ -225,4 +231,31 @@ pub fn along_axis(movement: DVec2) -> DVec2 {
 pub fn by_fifteen_degrees(angle: f64) -> f64 {
     let step = 15f64.to_radians();
     (angle / step).round() * step
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Curve;
+    use crate::geometry::FloatPolygon;
+
+    #[test]
+    fn an_end_comes_before_a_vertex_beside_it() {
+        // The curve begins midway between its first two vertices.
+        let points = [(0.0, 0.0), (4.0, 0.0), (100.0, 80.0), (200.0, 0.0)];
+        let polygon = FloatPolygon::planar(2, &points).expect("a polygon");
+        let document = Document::from_curves([Curve::new("low", polygon)]);
+        let found = |x: f64, scale: f64| {
+            let place = DVec2::new(x, 0.0);
+            let viewport = Viewport {
+                scale,
+                ..Viewport::default()
+            };
+            let snap = snap_to_point(place, &document, &Carried::default(), &viewport);
+            snap.map(|snap| snap.name)
+        };
+        assert_eq!(found(3.5, 1.0).as_deref(), Some("Start"));
+        assert_eq!(found(2.0, 1.0).as_deref(), Some("Start"));
+        assert_eq!(found(3.5, 10.0).as_deref(), Some("Vertex 1"));
+    }
 }
