@@ -138,11 +138,16 @@ impl FeatureComparison {
         })
     }
 
-    /// A count before and now, if there was a curve and it has grown.
+    /// A count before and now, if there was a curve and it has grown. Curves that are added with as many as one before
+    /// are its copies.
     fn more(&self, of: fn(&FeatureCounts) -> usize) -> Option<[usize; 2]> {
-        let sum = |curves: &[FeatureCounts]| curves.iter().map(of).sum::<usize>();
-        let counts = [&self.before, &self.after].map(|curves| sum(curves));
-        (!self.before.is_empty() && counts[1] > counts[0]).then_some(counts)
+        let known: Vec<usize> = self.before.iter().map(of).collect();
+        let is_copy =
+            |(place, count): &(usize, usize)| *place >= known.len() && known.contains(count);
+        let now = self.after.iter().map(of).enumerate();
+        let now: usize = now.filter(|it| !is_copy(it)).map(|(_, count)| count).sum();
+        let before: usize = known.iter().sum();
+        (!known.is_empty() && now > before).then_some([before, now])
     }
 }
 

@@ -72,11 +72,18 @@ impl Report {
 
 /// Say how many inflections there are now, if they are not as many as before.
 fn changed_inflections(before: &[FeatureCounts], after: &[FeatureCounts]) -> Option<String> {
-    let count = |counts: &[FeatureCounts]| counts.iter().map(|c| c.inflections).sum::<usize>();
-    let (was, now) = (count(before), count(after));
-    (was != now).then(|| match before {
-        [] => format!("inflections: {now}"),
-        _ => format!("inflections: {was} before, {now} now"),
+    let [was, now] = [before, after].map(|curves| {
+        let counts = curves.iter().map(|it| it.inflections);
+        counts.collect::<Vec<_>>()
+    });
+    let said = |counts: &[usize]| {
+        let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
+        counts.join(" and ")
+    };
+    let [sum_before, sum_now] = [&was, &now].map(|counts| counts.iter().sum::<usize>());
+    (sum_before != sum_now).then(|| match was.is_empty() {
+        true => format!("inflections: {}", said(&now)),
+        false => format!("inflections: {} before, {} now", said(&was), said(&now)),
     })
 }
 
