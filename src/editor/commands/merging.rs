@@ -1,9 +1,11 @@
 //! Adding documents that were read, in the document's unit. Where only they state a unit, the window asks
 //! for that of the document.
 
+use std::collections::BTreeSet;
+
 use glam::DVec3;
 
-use crate::document::{Document, Edit, MergeError, Reference};
+use crate::document::{Document, Edit, MergeError, Reference, free_name};
 use crate::editor::Editor;
 use crate::editor::jobs::file_reading::{FileAnswer, Purpose};
 use crate::editor::jobs::filing::{FileTask, Incoming, UnitQuestion};
@@ -187,9 +189,23 @@ fn merged(
     let (mut edits, mut lines) = (Vec::new(), Vec::new());
     for read in &incoming.documents {
         let merge = document.merging(&read.document, assumed)?;
+        let mut names: BTreeSet<String> = document.names().map(str::to_owned).collect();
+        let mut free = |name: &mut String| {
+            // Names that are alike in the file stay so.
+            if names.contains(name.as_str()) {
+                *name = free_name(name, |name| names.contains(name));
+                names.insert(name.clone());
+            }
+        };
         let placed = merge.edits.into_iter().map(|edit| match edit {
-            Edit::AddReference(picture) => {
-                Edit::AddReference(Box::new(beside_others(&document, *picture)))
+            Edit::Add(mut curve) => {
+                free(&mut curve.name);
+                Edit::Add(curve)
+            }
+            Edit::AddReference(reference) => {
+                let mut reference = beside_others(&document, *reference);
+                free(&mut reference.name);
+                Edit::AddReference(Box::new(reference))
             }
             edit => edit,
         });
