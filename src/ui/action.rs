@@ -378,7 +378,7 @@ fn other_words(command: Command) -> &'static str {
         Command::Panes(PaneLayout::One) => "one view",
         Command::Panes(PaneLayout::Two) => "two views split",
         Command::Panes(PaneLayout::Four) => "four views split",
-        Command::FitAll => "zoom to fit show everything",
+        Command::FitAll => "zoom to fit",
         Command::Fit => "zoom to selection",
         Command::ShowAll => "unhide show everything",
         Command::Isolate => "hide others solo",

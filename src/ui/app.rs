@@ -343,8 +343,11 @@ impl App {
             }
             // What a tool asks for stands in its place.
             let is_idle = self.editor.hand().tool() == ToolKind::Select;
+            // Over a document of the user's own it would lie in the way.
+            let is_new = self.editor.workspace().has_nothing_to_keep();
             if self.shell.offers_tour
                 && is_idle
+                && is_new
                 && overlays::tour_ui(context, rect, &mut self.actions)
             {
                 self.shell.offers_tour = false;

@@ -68,8 +68,8 @@ fn limit_ui(ui: &mut Ui, deviation: &Deviation, whiskers: &mut Whiskers) {
             let is_beyond = |it: &&Whisker| it.distance() > limit;
             let beyond = deviation.whiskers().filter(is_beyond).count();
             let of = deviation.whiskers().count();
-            widgets::caption(ui, &format!("{beyond} beyond"))
-                .on_hover_text(format!("of {of} whiskers"));
+            widgets::caption(ui, &format!("{beyond} of {of} beyond"))
+                .on_hover_text("How many whiskers are longer than the limit");
         }
     });
 }
@@ -99,21 +99,16 @@ fn figures_ui(ui: &mut Ui, editor: &Editor, compared: CurveId, deviation: &Devia
     widgets::figure_row(ui, "Largest at", &place);
 }
 
-/// The mean distance on each side.
+/// The mean distance on each side, and its share.
 fn by_side_ui(ui: &mut Ui, deviation: &Deviation) {
-    let means = deviation.by_side();
-    if means.is_empty() {
-        return;
+    for (side, mean, share) in deviation.by_side() {
+        let mean = document_unit::length(ui.ctx(), figures::significant(mean, 4));
+        let label = format!("Mean {}", side.name());
+        let figures = format!("{mean}, {:.0} %", 100.0 * share);
+        widgets::figure_row(ui, &label, &figures).on_hover_text(
+            "Mean distance on this side of the curve, and the share of places there",
+        );
     }
-    let sides = means.iter().map(|(side, ..)| side.name());
-    let label = format!("Mean {}", sides.collect::<Vec<_>>().join(", "));
-    let figures = means.iter().map(|(_, mean, share)| {
-        let mean = document_unit::length(ui.ctx(), figures::significant(*mean, 4));
-        format!("{mean} ({:.0} %)", 100.0 * share)
-    });
-    let figures = figures.collect::<Vec<_>>().join(", ");
-    widgets::figure_row(ui, &label, &figures)
-        .on_hover_text("Mean distance on each side of the curve, and the share of places there");
 }
 
 /// A place of a curve or a reference in words.

@@ -22,15 +22,20 @@ const COMB: f32 = 252.0 + OF + STEP;
 /// The width of the choice of curves that have a comb.
 const OF: f32 = 80.0;
 
-/// Show the strip in the upper left corner of the canvas; where it is narrow, the comb's controls stand
-/// below the layers.
+/// Show the strip in the upper left corner of the canvas, within the first pane; where it is narrow, the comb's controls
+/// stand below the layers.
 pub fn layer_strip_ui(
     context: &Context,
     canvas: Rect,
     editor: &mut Editor,
     commands: &mut Vec<Action>,
 ) {
-    let right = gizmo::place(canvas).map_or(canvas.right(), |gizmo| gizmo.left());
+    let first = editor.view().panes().next();
+    let width = first.map(|pane| pane.viewport.size.x as f32);
+    let right = match width.filter(|width| *width < canvas.width()) {
+        Some(width) => canvas.left() + width,
+        None => gizmo::place(canvas).map_or(canvas.right(), |gizmo| gizmo.left()),
+    };
     let width = right - canvas.left() - RULER as f32 - 3.0 * STEP;
     let is_narrow = width < Layer::ALL.len() as f32 * SIDE + COMB;
     // Beside the ruler.

@@ -201,16 +201,19 @@ fn scored(
             let label = action.label();
             let words = text(action);
             let score = pattern.score(Utf32Str::new(&words, &mut buffer), &mut matcher)?;
-            // The whole name before all others. Of two that match as well, what works on the document is meant,
-            // operations first, then the shorter name, then the one that begins so.
+            // The whole name before all others. Of two that match as well, what works on the document is meant
+            // and does something, operations first, then the shorter name, then the one that begins so.
             let is_part = !label.eq_ignore_ascii_case(typed.trim());
             let lower = label.to_lowercase();
             let is_later = !lower.starts_with(&typed.trim().to_lowercase());
-            let is_example = matches!(action, Action::OpenExample(_));
+            let is_aside = matches!(
+                action,
+                Action::OpenExample(_) | Action::Command(Command::Compare(None))
+            );
             let is_other = !matches!(action, Action::Command(Command::Operation(_)));
             let score = std::cmp::Reverse(score);
             let length = label.chars().count();
-            let rank = (is_part, score, is_example, is_other, length, is_later);
+            let rank = (is_part, score, is_aside, is_other, length, is_later);
             Some((rank, action))
         })
         .collect();
