@@ -358,7 +358,7 @@ pub fn drop_file(window: &mut Window, path: &Path) {
 }
 
 #[test]
-fn keys_of_commands_wait_for_the_end_of_a_drag() {
+fn keys_of_commands_do_nothing_in_a_drag() {
     let mut window = in_mid_drag();
     let before = curve(&window);
     for key in [Key::Delete, Key::O, Key::D, Key::P] {
