@@ -6,7 +6,6 @@ use std::fmt;
 use super::airfoil_order::AirfoilOrder;
 use super::file_match::FileMatch;
 use super::table_column::TableColumn;
-use super::table_points::nameless;
 use crate::document::{
     Curve, CurveId, Document, EditError, EndMatch, Extras, GuideLine, Reference, quoted,
 };
@@ -207,6 +206,11 @@ impl Reading {
     pub fn counted(&self) -> String {
         counted_items(self.curves.len(), self.references.len())
     }
+}
+
+/// What a list of points is called that says no name, by its number from 1.
+pub(super) fn nameless(number: usize) -> String {
+    format!("points {number}")
 }
 
 /// Count curves, and references if there are any, in words.

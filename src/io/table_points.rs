@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer, uncounted, upper_first};
 use super::decimals::{Decimals, is_number, measured};
 use super::error::{Place, Problem, ReadError};
-use super::reading::{Reading, Remark, Remarks};
+use super::reading::{Reading, Remark, Remarks, nameless};
 use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, Coordinates, WEIGHT, columns};
 use super::table_lines::{Fields, LineContent, TableLine};
 use super::tangent_plane::{TangentPlane, position};
@@ -560,11 +560,6 @@ impl<'a> PointReader<'a> {
         });
         Ok(Reference::new(name.clone(), curve?))
     }
-}
-
-/// What a list of points is called that says no name, by its number from 1.
-pub(super) fn nameless(number: usize) -> String {
-    format!("points {number}")
 }
 
 impl Layout {
