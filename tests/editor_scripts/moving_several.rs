@@ -220,20 +220,3 @@ fn matched_curves_follow_a_move_and_keep_their_shape_if_they_go_along() {
     script.command(Command::Undo);
     assert!(script.editor.document().is_same(&before));
 }
-
-#[test]
-fn arrow_keys_move_the_only_selected_curve_and_none_that_is_not() {
-    let (mut script, [arc, other, ..]) = four();
-    script.editor.hand_mut().select_items([other]);
-    let before = script.editor.document().clone();
-    script.key(Key::Up);
-    let way = moved(&before, script.editor.document(), other);
-    let step = script.editor.hand().nudge_step() * DVec3::Y;
-    assert!((way - step).length() < 1e-12, "{way}");
-    assert_eq!(moved(&before, script.editor.document(), arc), DVec3::ZERO);
-    script.command(Command::Undo);
-    script.key(Key::Escape);
-    script.key(Key::Escape);
-    script.key(Key::Up);
-    assert!(script.editor.document().is_same(&before));
-}

@@ -608,8 +608,7 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
         _ => context.nudge_step,
     };
     let items = Transformed::of(context);
-    let is_of_items = context.selection.is_empty() && !context.selection.has_no_item();
-    if is_of_items || !items.can_stretch() {
+    if context.selection.is_of_whole_items() || !items.can_stretch() {
         return nudge_items(&items, direction * step, context);
     }
     let vertices = context.places(context.selection.vertices());
