@@ -25,10 +25,10 @@ const REFITTED: f64 = 2.0;
 
 /// A move of a vertex, but for the outermost ones, counts as this share of it beside a move of the curve: a polygon that
 /// hardly moves the curve, but its own vertices far, is not the least change.
-const OF_VERTEX: f64 = 0.02;
+const OF_VERTEX: f64 = 0.03;
 
 /// Moves of vertices count for no more than a move of the curve by this share of its size.
-const MOST_OF_VERTEX: f64 = 1e-3;
+const MOST_OF_VERTEX: f64 = 3e-3;
 
 /// A curve whose polygon folds must be so many times nearer than one whose polygon does not.
 const FOLDED: f64 = 4.0;
@@ -159,8 +159,8 @@ impl Harmonised {
             .filter(|(vertex, _)| pulls(before, *vertex))
             .fold(0.0, |farthest: f64, (_, by)| farthest.max(by));
         let of_vertex = (OF_VERTEX * farthest).min(MOST_OF_VERTEX * before.size());
-        let moved = self.deviation.max(of_vertex);
-        let price = refitted * folded * displaced * self.priced(moved);
+        let price = refitted * displaced * self.priced(self.deviation);
+        let price = folded * price.max(of_vertex);
         (!self.reached, flung(before, &self.polygon).is_some(), price)
     }
 
