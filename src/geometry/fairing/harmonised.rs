@@ -23,13 +23,6 @@ const DISPLACED: f64 = 3.0;
 /// A fitted curve, whose vertices may lie anywhere, must be so many times nearer than the least change of them.
 const REFITTED: f64 = 2.0;
 
-/// A move of a vertex, but for the outermost ones, counts as this share of it beside a move of the curve: a polygon that
-/// hardly moves the curve, but its own vertices far, is not the least change.
-const OF_VERTEX: f64 = 0.03;
-
-/// Moves of vertices count for no more than a move of the curve by this share of its size.
-const MOST_OF_VERTEX: f64 = 3e-3;
-
 /// A curve whose polygon folds must be so many times nearer than one whose polygon does not.
 const FOLDED: f64 = 4.0;
 
@@ -155,12 +148,7 @@ impl Harmonised {
         } else {
             1.0
         };
-        let farthest = moves(before, &self.polygon)
-            .filter(|(vertex, _)| pulls(before, *vertex))
-            .fold(0.0, |farthest: f64, (_, by)| farthest.max(by));
-        let of_vertex = (OF_VERTEX * farthest).min(MOST_OF_VERTEX * before.size());
-        let price = refitted * displaced * self.priced(self.deviation);
-        let price = folded * price.max(of_vertex);
+        let price = refitted * folded * displaced * self.priced(self.deviation);
         (!self.reached, flung(before, &self.polygon).is_some(), price)
     }
 
@@ -211,26 +199,26 @@ pub(super) fn folds(before: &FloatPolygon, after: &FloatPolygon) -> bool {
 
 /// The vertex that moves farthest, and how far.
 pub fn farthest_move(before: &FloatPolygon, after: &FloatPolygon) -> Option<(usize, f64)> {
-    moves(before, after).max_by(|a, b| a.1.total_cmp(&b.1))
-}
-
-/// How far each vertex moves.
-fn moves(before: &FloatPolygon, after: &FloatPolygon) -> impl Iterator<Item = (usize, f64)> {
     let pairs = before.vertices().iter().zip(after.vertices());
     let moves = pairs.map(|(before, after)| after.distance(*before));
-    moves.enumerate()
-}
-
-/// Whether the curve reaches the place where a vertex pulls it most: the outermost ones hardly move it.
-fn pulls(polygon: &FloatPolygon, vertex: usize) -> bool {
-    let from_end = vertex.min(polygon.vertices().len() - 1 - vertex);
-    polygon.is_periodic() || 2 * from_end + 1 >= polygon.degree()
+    moves.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Whether the discrete curvature of a polygon has the extrema and inflections of its curve, in their order; `None` if
 /// the computation was cancelled.
 pub fn follows(polygon: &FloatPolygon, progress: &Progress) -> Option<bool> {
-    let features = Features::proved(polygon, |_| !progress.is_cancelled())?;
-    let harmony = harmony::Harmony::of(polygon, &features);
+    let harmony = harmony_of(polygon, progress)?;
     Some(harmony.curvature.verdict == harmony::Match::Agrees)
+}
+
+/// The largest second difference of the turning angles of a polygon, in radians; `None` if there is none, or the
+/// computation was cancelled.
+pub(super) fn unevenness(polygon: &FloatPolygon, progress: &Progress) -> Option<f64> {
+    let figures = harmony_of(polygon, progress)?.figures;
+    figures.turns.map(|turns| turns.value)
+}
+
+fn harmony_of(polygon: &FloatPolygon, progress: &Progress) -> Option<harmony::Harmony> {
+    let features = Features::proved(polygon, |_| !progress.is_cancelled())?;
+    Some(harmony::Harmony::of(polygon, &features))
 }

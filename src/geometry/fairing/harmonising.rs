@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use super::counts::{CountRequest, ShapeCounts, counted, domain, seen, significant};
+use super::harmonised::unevenness;
 use super::problem::{Problem, Sweep};
 use super::refitting::{fit_conditions, fitted};
 use super::requirement::{Check, PlaceRequest, Requirement};
@@ -37,6 +38,10 @@ const NEAR: f64 = 1e-4;
 
 /// A result whose discrete curvature follows the curve may be so many times as far as one whose does not.
 const HARDLY_FARTHER: f64 = 1.25;
+
+/// A result that moves the curve by no more than this share of its size may be farther than a fit whose polygon is less
+/// even than it was: that is near, but no harmony.
+const LITTLE: f64 = 5e-3;
 
 /// The share of the time for the least change where a fit may follow.
 const LEAST_CHANGE: f64 = 0.6;
@@ -85,6 +90,7 @@ pub fn harmonise(
 }
 
 /// Choose the nearest of some results; of those that are hardly farther, one whose discrete curvature follows the curve.
+/// Where a fit is the nearest, and less even than the polygon was, one that is as even and moves the curve little.
 fn chosen(
     polygon: &FloatPolygon,
     mut candidates: Vec<Harmonised>,
@@ -93,6 +99,9 @@ fn chosen(
     let rank = |it: &Harmonised| it.rank(polygon);
     candidates.sort_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
     let nearest = candidates.first()?.clone();
+    if let Some(even) = more_even(polygon, &nearest, &candidates, progress) {
+        return Some(even.clone());
+    }
     let (_, _, price) = rank(&nearest);
     let is_near = |it: &&Harmonised| {
         let (misses, flung, own) = rank(it);
@@ -104,6 +113,32 @@ fn chosen(
     let mut near = candidates.iter().filter(is_near);
     let following = near.find(|it| follows(&it.polygon, progress) == Some(true));
     Some(following.cloned().unwrap_or(nearest))
+}
+
+/// The nearest result that has all features, moves the curve little and is as even as the polygon before, if the nearest
+/// of all is a fit that is less even.
+fn more_even<'a>(
+    polygon: &FloatPolygon,
+    nearest: &Harmonised,
+    candidates: &'a [Harmonised],
+    progress: &Progress,
+) -> Option<&'a Harmonised> {
+    let is_whole = |it: &&Harmonised| {
+        let (misses, flung, _) = it.rank(polygon);
+        !misses && !flung && it.lacking() == 0 && it.displaced.is_none()
+    };
+    let is_little = |it: &&Harmonised| it.deviation <= LITTLE * polygon.size();
+    if !nearest.refitted {
+        return None;
+    }
+    let before = unevenness(polygon, progress)?;
+    let is_even =
+        |it: &Harmonised| unevenness(&it.polygon, progress).is_some_and(|now| now <= before);
+    if is_even(nearest) {
+        return None;
+    }
+    let others = candidates.iter().filter(is_whole).filter(is_little);
+    others.into_iter().find(|it| is_even(it))
 }
 
 /// Move vertices as little as possible, as [`harmonise`] does, and fit nothing instead.
