@@ -138,16 +138,17 @@ impl FeatureComparison {
         })
     }
 
-    /// A count before and now, if there was a curve and it has grown. Curves that are added with as many as one before
+    /// A count before and now, if there was a curve and it has grown. Curves with another name and as many as one before
     /// are its copies.
     fn more(&self, of: fn(&FeatureCounts) -> usize) -> Option<[usize; 2]> {
-        let known: Vec<usize> = self.before.iter().map(of).collect();
-        let is_copy =
-            |(place, count): &(usize, usize)| *place >= known.len() && known.contains(count);
-        let now = self.after.iter().map(of).enumerate();
-        let now: usize = now.filter(|it| !is_copy(it)).map(|(_, count)| count).sum();
-        let before: usize = known.iter().sum();
-        (!known.is_empty() && now > before).then_some([before, now])
+        let is_new = |it: &&FeatureCounts| !self.before.iter().any(|own| own.name == it.name);
+        let is_like_one = |it: &&FeatureCounts| self.before.iter().any(|own| of(own) == of(it));
+        let copies = self.after.iter().filter(is_new).filter(is_like_one);
+        let copied: usize = copies.map(of).sum();
+        let [before, now] =
+            [&self.before, &self.after].map(|curves| curves.iter().map(of).sum::<usize>());
+        let now = now - copied;
+        (!self.before.is_empty() && now > before).then_some([before, now])
     }
 }
 

@@ -142,3 +142,14 @@ fn a_copy_leaves_the_curve_and_a_matched_end_is_not_torn_off() {
     assert_eq!(curves[0].polygon, *runner.polygon());
     assert_eq!(curves[2].name, "curve 2");
 }
+
+#[test]
+fn copies_of_a_curve_are_no_new_features() {
+    let runner = Runner::example("s-curve");
+    let copy = ("copy", Value::Switch(true));
+    for (operation, given) in [("mirror", &[copy][..]), ("array", &[])] {
+        let report = runner.report(operation, given);
+        assert!(report.features.is_some());
+        assert!(report.warnings.is_empty(), "{:?}", report.warnings);
+    }
+}
