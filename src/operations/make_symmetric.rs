@@ -17,7 +17,8 @@ use super::outcome::{Annotation, Deviation, Figure, Outcome};
 use super::parameter::{Choice, Kind, POSITIVE, Parameter};
 use super::values::Values;
 use super::whole::{
-    OF_CUT, WHOLE, Whole, bridged, closed, merged, receded, smoothed, with_few_vertices,
+    OF_CUT, WHOLE, Whole, bridged, bridged_with_few_vertices, closed, merged, receded, smoothed,
+    with_few_vertices,
 };
 use crate::document::{CurveId, Document, Edit, ParameterSpan};
 use crate::geometry::approximation::merging::{MergeError, check_joint, joint_of};
@@ -390,7 +391,7 @@ fn found_whole(
             let whole = bridged(parts, mirror, progress)?;
             progress.show(whole.polygon.clone());
             progress.set_done(0.5);
-            with_few_vertices((whole, most), kept, mirror, tolerance, progress)?
+            bridged_with_few_vertices((whole, most), mirror, tolerance, progress)?
         }
     };
     let limit = (1.0 - OF_CUT) * tolerance;

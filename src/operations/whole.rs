@@ -39,9 +39,6 @@ const FITTED: usize = 200;
 /// All of a half.
 pub(super) const WHOLE: [f64; 2] = [0.0, 1.0];
 
-/// The name of the method that bridges a gap.
-const BRIDGE: &str = "bridge";
-
 /// A half and its image in one.
 pub(super) struct Whole {
     pub(super) polygon: FloatPolygon,
@@ -175,7 +172,7 @@ pub(super) fn bridged(
     Ok(Whole {
         joint: found.joint,
         kept: WHOLE,
-        method: BRIDGE,
+        method: "bridge",
         // Both parts have as many segments, so that the bridge lies in the middle.
         off: found.polygon.deviation(&symmetric)?,
         bounded: true,
@@ -199,22 +196,22 @@ pub(super) fn with_few_vertices(
     if count(&whole.polygon) <= most || whole.fault.is_some() {
         return Ok(whole);
     }
-    let fitted = match whole.method {
-        // There are no points of the halves across a bridge: a fit would go its own way.
-        BRIDGE => approximated(&whole, mirror, tolerance, progress)?,
-        _ => refitted(kept, mirror, tolerance, progress)?,
-    };
+    let fitted = refitted(kept, mirror, tolerance, progress)?;
     let fewer = fitted.filter(|fitted| count(&fitted.polygon) < count(&whole.polygon));
     Ok(fewer.unwrap_or(whole))
 }
 
-/// Approximate a half with its image and the bridge between them by fewer vertices; `None` if none are near.
-fn approximated(
-    whole: &Whole,
+/// A half and its image over a bridge, approximated by fewer vertices if they are within the tolerance. There are no points
+/// of the halves across the bridge: a fit to these would go its own way.
+pub(super) fn bridged_with_few_vertices(
+    (whole, most): (Whole, usize),
     mirror: &Mirror,
     tolerance: f64,
     progress: &Progress,
-) -> Result<Option<Whole>, OperationError> {
+) -> Result<Whole, OperationError> {
+    if whole.polygon.vertices().len() <= most || whole.fault.is_some() {
+        return Ok(whole);
+    }
     let polygon = &whole.polygon;
     let within = (1.0 - OF_CUT) * tolerance;
     let goal = Goal {
@@ -234,25 +231,22 @@ fn approximated(
     let Ok(found) = approximate_to_tolerance(polygon, all, &goal, &asked, &limited) else {
         return match progress.is_cancelled() {
             true => Err(OperationError::Cancelled),
-            false => Ok(None),
+            false => Ok(whole),
         };
     };
     let fewer = found.polygon.symmetrised(mirror)?;
     let off = SideDeviation::both_ways([polygon, &fewer], progress);
     let off = whole.off + off.map_err(|_| OperationError::Cancelled)?;
-    Ok((off <= within).then_some(Whole {
-        joint: whole.joint.map(|u| {
-            let was = polygon.point(u);
-            fewer.nearest(was).u
-        }),
+    if off > within || fewer.vertices().len() >= polygon.vertices().len() {
+        return Ok(whole);
+    }
+    Ok(Whole {
+        joint: whole.joint.map(|u| fewer.nearest(polygon.point(u)).u),
         off,
         bounded: false,
         polygon: fewer,
-        kept: whole.kept,
-        method: BRIDGE,
-        fault: None,
-        knuckle: whole.knuckle.clone(),
-    }))
+        ..whole
+    })
 }
 
 /// Fit one curve with few extrema to points of a half and of its image; `None` if none is near, or the mirror plane is none
