@@ -250,22 +250,17 @@ struct Parts {
 
 impl Parts {
     fn of(curve: &ReferenceCurve) -> Result<Self, OperationError> {
-        let ends = [(curve.pieces() - 1, 1.0), (0, 0.0)];
-        let [end, start] = ends.map(|(piece, t)| values_at(curve, piece, t));
-        let closes = start[0].distance(end[0]) <= CLOSED * size(curve);
-        let is_smooth = closes && end[1].angle_between(start[1]) <= CORNER;
+        let (gap, angle) = joint(curve, [curve.pieces() - 1, 0]);
+        let is_smooth = gap <= CLOSED * size(curve) && angle <= CORNER;
         let ReferenceForm::Nurbs(nurbs) = curve.form() else {
             return Ok(Self {
                 parts: vec![curve.clone()],
                 is_round: is_smooth,
             });
         };
-        let corners = (1..curve.pieces()).filter(|piece| {
-            let [before, after] =
-                [(piece - 1, 1.0), (*piece, 0.0)].map(|(piece, t)| values_at(curve, piece, t)[1]);
-            // Where the curve stops there is no direction to compare.
-            before.angle_between(after) > CORNER
-        });
+        // Where the curve stops there is no direction to compare.
+        let is_corner = |piece: &usize| joint(curve, [piece - 1, *piece]).1 > CORNER;
+        let corners = (1..curve.pieces()).filter(is_corner);
         let mut parts = Vec::new();
         let mut rest = nurbs.clone();
         for piece in corners {
@@ -301,11 +296,14 @@ impl Parts {
     }
 }
 
-/// The point and the derivative on a piece.
-fn values_at(curve: &ReferenceCurve, piece: usize, t: f64) -> [DVec3; 2] {
-    let mut values = [DVec3::ZERO; 2];
-    curve.fill_derivatives(piece, t, &mut values);
-    values
+/// The gap between the end of a piece and the start of another one, and the angle between their directions.
+fn joint(curve: &ReferenceCurve, [before, after]: [usize; 2]) -> (f64, f64) {
+    let [end, start] = [(before, 1.0), (after, 0.0)].map(|(piece, t)| {
+        let mut values = [DVec3::ZERO; 2];
+        curve.fill_derivatives(piece, t, &mut values);
+        values
+    });
+    (end[0].distance(start[0]), end[1].angle_between(start[1]))
 }
 
 /// A spline that goes on into another one, exactly: clamped where they meet, at the ends of an interval that both come
@@ -334,14 +332,8 @@ fn followed(before: &Nurbs, after: &Nurbs, [from, to]: [f64; 2]) -> Option<Nurbs
             Some(own.iter().copied().chain(others).collect())
         }
     };
-    Nurbs::new(
-        degree,
-        knots.chain(shifted).collect(),
-        points,
-        weights,
-        false,
-    )
-    .ok()
+    let knots = knots.chain(shifted).collect();
+    Nurbs::new(degree, knots, points, weights, false).ok()
 }
 
 /// The parts of a spline before and after an inner knot at which it is not smooth, exactly; `None` at any other place.
