@@ -120,6 +120,13 @@ fn points_without_a_name_are_called_as_their_file() {
     let references = editor.document().references();
     let names: Vec<&str> = references.map(|(_, it)| it.name.as_str()).collect();
     assert_eq!(names, ["scan 7", "probe", "two 1", "two 2"]);
+    // Names that are taken get a number that no other has.
+    editor
+        .import(&[file(&folder, "two.csv", &two)])
+        .expect("points");
+    let references = editor.document().references();
+    let names: Vec<&str> = references.map(|(_, it)| it.name.as_str()).collect();
+    assert_eq!(names[4..], ["two 3", "two 4"]);
 }
 
 #[test]

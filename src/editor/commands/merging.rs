@@ -189,12 +189,14 @@ fn merged(
     let (mut edits, mut lines) = (Vec::new(), Vec::new());
     for read in &incoming.documents {
         let merge = document.merging(&read.document, assumed)?;
-        let mut names: BTreeSet<String> = document.names().map(str::to_owned).collect();
+        let own: BTreeSet<&str> = document.names().collect();
+        let mut taken: BTreeSet<String> = read.document.names().map(str::to_owned).collect();
         let mut free = |name: &mut String| {
             // Names that are alike in the file stay so.
-            if names.contains(name.as_str()) {
-                *name = free_name(name, |name| names.contains(name));
-                names.insert(name.clone());
+            if own.contains(name.as_str()) {
+                let is_taken = |name: &str| own.contains(name) || taken.contains(name);
+                *name = free_name(name, is_taken);
+                taken.insert(name.clone());
             }
         };
         let placed = merge.edits.into_iter().map(|edit| match edit {
