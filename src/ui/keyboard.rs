@@ -151,6 +151,20 @@ pub struct Keyboard {
     waiting: Option<(Steering, Action)>,
 }
 
+impl KeyCommand {
+    /// Whether it counts while something is dragged: what changes curves or takes another tool would come by a slip of
+    /// the other hand.
+    fn can_be_given_in_a_drag(&self) -> bool {
+        match self {
+            Self::Action(Action::Command(command)) => {
+                command.only_shows() || matches!(command, Command::Undo | Command::Redo)
+            }
+            Self::Action(action) => !matches!(action, Action::Cut),
+            Self::Paste(_) | Self::PastePicture(_) => false,
+        }
+    }
+}
+
 impl Keyboard {
     /// Take the events out of this frame that stand for commands.
     pub fn take_commands(&mut self, context: &Context, editor: &Editor) -> Vec<KeyCommand> {
@@ -170,13 +184,13 @@ impl Keyboard {
             .into_iter()
             .filter_map(|command| Some((command.shortcut()?, command)))
             .filter(|(shortcut, _)| !(takes_numbers && is_number(shortcut)))
-            .filter(|(_, action)| !holding || can_be_given_in_a_drag(*action))
             .collect();
         let mut commands = Vec::new();
         context.input_mut(|input| {
             input.events.retain(|event| {
                 commands.extend(self.released(event));
                 let found = command_of(event, &table, typing);
+                let found = found.filter(|it| !holding || it.can_be_given_in_a_drag());
                 match (found, steering(event)) {
                     (None, _) => true,
                     (Some(KeyCommand::Action(command)), Some((steering, _))) => {
@@ -282,17 +296,6 @@ fn pressed_shortcut(pressed: egui::Key, held: egui::Modifiers) -> Option<Shortcu
         shortcut.modifiers.shift = false;
     }
     Some(shortcut)
-}
-
-/// Whether a key gives its command while something is dragged: what changes curves or takes another tool would come by
-/// a slip of the other hand.
-fn can_be_given_in_a_drag(action: Action) -> bool {
-    match action {
-        Action::Command(command) => {
-            command.only_shows() || matches!(command, Command::Undo | Command::Redo)
-        }
-        _ => true,
-    }
 }
 
 /// Keys that people know from elsewhere.
