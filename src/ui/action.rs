@@ -384,18 +384,24 @@ fn other_words(command: Command) -> &'static str {
         Command::Isolate => "hide others solo",
         Command::ToggleVisible => "hide show",
         Command::TogglePeriodic => "closed",
-        Command::Operation(operation) => match operation.name {
-            "mirror" => "flip reflect",
-            "harmonise" => "fair smooth",
-            "array" => "copies pattern",
-            "to-float" => "rebuild",
-            "join" => "merge connect",
-            "split" => "divide",
-            _ => "",
-        },
+        Command::Operation(operation) => {
+            let mut words = OTHER_WORDS.iter();
+            let words = words.find(|(name, _)| *name == operation.name);
+            words.map_or("", |(_, words)| words)
+        }
         _ => "",
     }
 }
+
+/// What other programs call operations, by their names.
+pub const OTHER_WORDS: [(&str, &str); 6] = [
+    ("mirror", "flip reflect"),
+    ("harmonise", "fair smooth"),
+    ("array", "copies pattern"),
+    ("to-float", "rebuild"),
+    ("join", "merge connect"),
+    ("split", "divide"),
+];
 
 #[cfg(test)]
 mod tests {

@@ -142,12 +142,16 @@ fn row_ui(ui: &mut Ui, editor: &Editor, action: Action, chosen: bool) -> Respons
         widgets::icon(ui, place, icon, colour);
     }
     let label = inner.with_min_x(inner.left() + 7.0 * STEP);
-    widgets::label_in(ui, label, &action.title_now(editor), colour);
+    let title = action.title_now(editor);
+    widgets::label_in(ui, label, &title, colour);
     if let Some(text) = beside(action, editor) {
         let (align, font) = (Align2::RIGHT_CENTER, theme::small_font());
         widgets::text_in(ui, inner, align, text, font, tokens.faint_text);
     }
-    let name = action.name_now(editor);
+    let name = match action.foreseen(editor) {
+        Some(foreseen) => format!("{title} {foreseen}"),
+        None => title,
+    };
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, enabled, chosen, &name));
     response.on_hover_text(action.tooltip_now(editor))
 }
@@ -224,6 +228,8 @@ fn scored(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::operations;
+    use crate::ui::action::OTHER_WORDS;
 
     #[test]
     fn of_names_that_match_as_well_the_shorter_one_comes_first_then_the_one_that_begins_so() {
@@ -231,6 +237,13 @@ mod tests {
         let first = |typed: &str| matches(typed, &editor).first().map(|it| it.label());
         let told = ["comb", "picture"].map(|typed| first(typed).unwrap_or_default());
         assert_eq!(told, ["Curvature comb", "Picture to trace…"]);
+    }
+
+    #[test]
+    fn other_words_name_operations_that_there_are() {
+        for (name, _) in OTHER_WORDS {
+            assert!(operations::find(name).is_some(), "{name}");
+        }
     }
 
     #[test]
