@@ -78,8 +78,8 @@ impl Deviation {
         self.average(|side| side.rms * side.rms).sqrt()
     }
 
-    /// The mean distance on each side of the curve that is measured from, and its share of the whiskers: of the first
-    /// side that is measured from a curve in the plane. Empty in space.
+    /// The mean distance of the places on each side of the other curve, and their share of all: from the first curve or
+    /// the points, of which every whisker stands for as much. Empty in space.
     pub fn by_side(&self) -> Vec<(CurveSide, f64, f64)> {
         let sides = self.sides.iter().flatten();
         let mut sides = sides.filter(|side| side.whiskers.iter().any(|it| it.side.is_some()));

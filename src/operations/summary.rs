@@ -72,18 +72,11 @@ impl Report {
 
 /// Say how many inflections there are now, if they are not as many as before.
 fn changed_inflections(before: &[FeatureCounts], after: &[FeatureCounts]) -> Option<String> {
-    let [was, now] = [before, after].map(|curves| {
-        let counts = curves.iter().map(|it| it.inflections);
-        counts.collect::<Vec<_>>()
-    });
-    let said = |counts: &[usize]| {
-        let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
-        counts.join(" and ")
-    };
-    let [sum_before, sum_now] = [&was, &now].map(|counts| counts.iter().sum::<usize>());
-    (sum_before != sum_now).then(|| match was.is_empty() {
-        true => format!("inflections: {}", said(&now)),
-        false => format!("inflections: {} before, {} now", said(&was), said(&now)),
+    let sum = |curves: &[FeatureCounts]| curves.iter().map(|it| it.inflections).sum::<usize>();
+    let said = |curves: &[FeatureCounts]| of_each(curves, |it| it.inflections.to_string());
+    (sum(before) != sum(after)).then(|| match before {
+        [] => format!("inflections: {}", said(after)),
+        _ => format!("inflections: {} before, {} now", said(before), said(after)),
     })
 }
 
@@ -118,6 +111,10 @@ fn extrema(counts: &[FeatureCounts]) -> Option<String> {
             }
         }
     };
+    (!counts.is_empty()).then(|| of_each(counts, said))
+}
+
+fn of_each(counts: &[FeatureCounts], said: impl Fn(&FeatureCounts) -> String) -> String {
     let said: Vec<String> = counts.iter().map(said).collect();
-    (!said.is_empty()).then(|| said.join(" and "))
+    said.join(" and ")
 }

@@ -30,10 +30,10 @@ pub fn layer_strip_ui(
     editor: &mut Editor,
     commands: &mut Vec<Action>,
 ) {
-    let first = editor.view().panes().next();
-    let width = first.map(|pane| pane.viewport.size.x as f32);
-    let right = match width.filter(|width| *width < canvas.width()) {
-        Some(width) => canvas.left() + width,
+    let pane = editor.view().panes().next();
+    let pane = pane.map(|pane| pane.viewport.size.x as f32);
+    let right = match pane.filter(|pane| *pane < canvas.width()) {
+        Some(pane) => canvas.left() + pane,
         None => gizmo::place(canvas).map_or(canvas.right(), |gizmo| gizmo.left()),
     };
     let width = right - canvas.left() - RULER as f32 - 3.0 * STEP;

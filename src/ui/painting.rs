@@ -570,7 +570,7 @@ fn fading(curve: &CurveScene) -> impl Fn(Color32) -> Color32 {
     }
 }
 
-/// Append a line with soft edges, as wide as each of them.
+/// Append a line that fades to both sides within `feather`.
 fn hair(mesh: &mut Mesh, from: Pos2, to: Pos2, feather: f32, colour: Color32) {
     let along = to - from;
     if along.length_sq() < 0.01 {

@@ -44,14 +44,13 @@ impl MenuTarget {
         let vertex = hits.vertex(at);
         let end = end_at(at, context);
         // A vertex beside an end does not take its menu.
-        let away = |vertex: VertexId| {
-            let curve = document.curve(vertex.0)?;
-            let place = *curve.polygon.vertices().get(vertex.1)?;
-            Some(distance(place, at, context.viewport))
+        let is_beside_end = |(curve, index): &VertexId| {
+            let place = document.curve(*curve).map(|it| it.polygon.vertex(*index));
+            let away = place.map(|place| distance(place, at, context.viewport));
+            away.zip(end)
+                .is_some_and(|(away, (end, _))| end + BESIDE < away)
         };
-        let is_end_nearer = vertex.and_then(away).zip(end);
-        let is_end_nearer = is_end_nearer.is_some_and(|(away, (end, _))| end + BESIDE < away);
-        if let Some(vertex) = vertex.filter(|_| !is_end_nearer) {
+        if let Some(vertex) = vertex.filter(|vertex| !is_beside_end(vertex)) {
             return Self {
                 vertices: vec![vertex],
                 ..Self::new(MenuSubject::Vertex, None)
