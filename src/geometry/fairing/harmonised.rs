@@ -211,11 +211,12 @@ pub fn follows(polygon: &FloatPolygon, progress: &Progress) -> Option<bool> {
     Some(harmony.curvature.verdict == harmony::Match::Agrees)
 }
 
-/// The largest second difference of the turning angles of a polygon, in radians; `None` if there is none, or the
-/// computation was cancelled.
+/// The largest second differences of the turning angles of a polygon, in radians, and of the logarithms of its legs,
+/// together; `None` if there are none, or the computation was cancelled.
 pub(super) fn unevenness(polygon: &FloatPolygon, progress: &Progress) -> Option<f64> {
     let figures = harmony_of(polygon, progress)?.figures;
-    figures.turns.map(|turns| turns.value)
+    let (turns, legs) = figures.turns.zip(figures.legs)?;
+    Some(turns.value + legs.value)
 }
 
 fn harmony_of(polygon: &FloatPolygon, progress: &Progress) -> Option<harmony::Harmony> {

@@ -39,8 +39,8 @@ const NEAR: f64 = 1e-4;
 /// A result whose discrete curvature follows the curve may be so many times as far as one whose does not.
 const HARDLY_FARTHER: f64 = 1.25;
 
-/// A result that moves the curve by no more than this share of its size may be farther than a fit whose polygon is less
-/// even than it was: that is near, but no harmony.
+/// A result that moves no vertex by more than this share of the polygon's size may be farther than a fit whose polygon
+/// is less even than it was: that is near, but no harmony.
 const LITTLE: f64 = 5e-3;
 
 /// The share of the time for the least change where a fit may follow.
@@ -115,7 +115,7 @@ fn chosen(
     Some(following.cloned().unwrap_or(nearest))
 }
 
-/// The nearest result that has all features, moves the curve little and is as even as the polygon before, if the nearest
+/// The nearest result that has all features, moves the vertices little and is as even as the polygon before, if the nearest
 /// of all is a fit that is less even.
 fn more_even<'a>(
     polygon: &FloatPolygon,
@@ -127,7 +127,10 @@ fn more_even<'a>(
         let (misses, flung, _) = it.rank(polygon);
         !misses && !flung && it.lacking() == 0 && it.displaced.is_none()
     };
-    let is_little = |it: &&Harmonised| it.deviation <= LITTLE * polygon.size();
+    let is_little = |it: &&Harmonised| {
+        let farthest = farthest_move(polygon, &it.polygon);
+        farthest.is_none_or(|(_, distance)| distance <= LITTLE * polygon.size())
+    };
     if !nearest.refitted {
         return None;
     }
