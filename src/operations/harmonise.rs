@@ -257,7 +257,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             .warnings
             .extend(found.displaced.map(remark_on_displaced));
         outcome.remarks.extend(remark_on_lost(&found));
-        outcome.remarks.extend(remark_on_many(&found, &harmony));
+        outcome.warnings.extend(many(&found, &harmony));
         let lost = follows(&found.polygon, &progress) == Some(false)
             && follows(&curve.polygon, &progress) == Some(true);
         outcome.warnings.extend(lost.then(|| {
@@ -395,11 +395,11 @@ fn remark_on_lost(found: &Harmonised) -> Option<String> {
 }
 
 /// Say that many extrema stand out, and how to keep fewer.
-fn remark_on_many(found: &Harmonised, harmony: &Harmony) -> Option<String> {
+fn many(found: &Harmonised, harmony: &Harmony) -> Option<String> {
     let left = found.counts.extrema;
     (harmony.extrema.is_none() && left > MANY).then(|| {
         format!(
-            "{left} curvature extrema stand out and stay: enter Curvature extrema to keep fewer"
+            "{left} curvature extrema stand out and stay: enter a number in Curvature extrema to keep fewer"
         )
     })
 }
