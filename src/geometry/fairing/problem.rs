@@ -263,6 +263,7 @@ impl<'a> Problem<'a> {
         };
         let mut vertices = begin.to_vec();
         let mut steps = 0;
+        let mut last = f64::INFINITY;
         let (_, mut factors) = self.squares(objective, &vertices).factor()?;
         let mut conditions = self.linearise(&factors, &vertices)?;
         while steps < most && !self.progress.is_cancelled() {
@@ -284,9 +285,11 @@ impl<'a> Problem<'a> {
                 conditions = self.linearise(&factors, &vertices)?;
             }
             let length = step.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
-            if length <= NO_STEP {
+            // Near the conditions steps that do not become shorter are rounding.
+            if length <= NO_STEP || (missing <= NEAR && length >= last) {
                 break;
             }
+            last = length;
         }
         Some(Descent {
             vertices: self.restored(&conditions, vertices),
