@@ -282,7 +282,7 @@ fn met(
             };
             return ends.try_fold(polygon.clone(), one);
         }
-        let least = Disturbance::Differences(1);
+        let least = Disturbance::Turned(1);
         let targets = with_kept_ends(polygon, matched);
         let corrected = correct(polygon, &targets, least, &locked, &Progress::default());
         corrected.ok().map(|corrected| corrected.polygon)

@@ -24,7 +24,7 @@ use crate::geometry::fairing::joint_correction::{CorrectionError, Disturbance, c
 use crate::geometry::fairing::requirement::{Check, Requirement};
 use crate::geometry::features::{Feature, Features};
 use crate::geometry::parameters::{Number, Quantity};
-use crate::geometry::{BezierPolygon, End, FloatPolygon, Progress, counted, significant};
+use crate::geometry::{End, FloatPolygon, Progress, counted, significant};
 
 /// What is left where only rounding is left, in units of the polygon's size.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -71,13 +71,17 @@ const DISTURBANCES: [Option<Disturbance>; 6] = [
     Some(Disturbance::Harmony),
 ];
 
-/// Automatic, the curve itself moves least where it moves no more than this share of the way that it goes if the
-/// vertices move least, and that is more than this share of its size.
-const LESS: f64 = 0.5;
-const NEAR: f64 = 2e-3;
+/// What else is tried where the vertices that move least add features.
+const FAIRER: [Disturbance; 5] = [
+    Disturbance::Turned(2),
+    Disturbance::Turned(3),
+    Disturbance::Differences(1),
+    Disturbance::Differences(2),
+    Disturbance::Differences(3),
+];
 
-/// Automatic, a correction with fewer curvature extrema may move the curve so many times as far as one with more.
-const HARDLY_FARTHER: f64 = 1.2;
+/// Automatic, a correction with fewer features may move the curve so many times as far as one with more.
+const LITTLE_FARTHER: f64 = 1.5;
 
 const TOLERANCE: Parameter = Parameter {
     name: "tolerance",
@@ -459,32 +463,30 @@ fn at_once(
     fairest(curve, nearest(curve, &least)?, &least, progress)
 }
 
-/// Correct with the smallest moves of vertices, or of the curve where those take it far.
+/// Correct with the smallest moves of vertices, or of the curve where those turn it over or make another curve of it.
 fn nearest(
     curve: &Curve,
     least: &dyn Fn(Disturbance) -> Result<Correction, OperationError>,
 ) -> Result<Correction, OperationError> {
-    let by_vertices = least(Disturbance::Differences(1))?;
-    let most = match &by_vertices.polygon {
-        Some(polygon) if turned_over(&curve.polygon, polygon).is_some() => f64::INFINITY,
-        Some(polygon) => {
-            let moved = curve.polygon.deviation(polygon)?;
-            if moved <= NEAR * BezierPolygon::from_float(&curve.polygon).size() {
-                return Ok(by_vertices);
-            }
-            LESS * moved
-        }
-        None => f64::INFINITY,
+    let by_vertices = least(Disturbance::Turned(1))?;
+    let is_wrong = |polygon: &FloatPolygon| {
+        let turned = turned_over(&curve.polygon, polygon).is_some();
+        Ok::<bool, OperationError>(turned || is_another(curve, polygon)?)
     };
+    match &by_vertices.polygon {
+        Some(polygon) if !is_wrong(polygon)? => return Ok(by_vertices),
+        _ => {}
+    }
     let by_curve = least(Disturbance::Curve)?;
-    let is_nearer = match &by_curve.polygon {
-        Some(polygon) => curve.polygon.deviation(polygon)? <= most,
-        None => false,
+    let is_better = match (&by_curve.polygon, &by_vertices.polygon) {
+        (Some(polygon), Some(_)) => !is_wrong(polygon)?,
+        (polygon, None) => polygon.is_some(),
+        (None, Some(_)) => false,
     };
-    Ok(match is_nearer {
+    Ok(match is_better {
         true => Correction {
             remark: Some(
-                "The curve moves least, not its vertices: those would take it farther".to_owned(),
+                "The curve moves least, not its vertices: those would make another curve of it".to_owned(),
             ),
             ..by_curve
         },
@@ -492,36 +494,42 @@ fn nearest(
     })
 }
 
-/// Of corrections that move the curve hardly farther than a given one take that with the fewest curvature extrema: the
-/// smallest differences of higher orders bend it less.
+/// Of corrections that move the curve little farther than a given one take that which adds the fewest curvature extrema
+/// and inflections: the smallest differences of higher orders bend it less, and free ends where they share vertices.
 fn fairest(
     curve: &Curve,
     nearest: Correction,
     least: &dyn Fn(Disturbance) -> Result<Correction, OperationError>,
     progress: &Progress,
 ) -> Result<Correction, OperationError> {
-    let extrema = |polygon: &FloatPolygon| {
+    let features = |polygon: &FloatPolygon| {
         let features = Features::proved(polygon, |_| !progress.is_cancelled());
         let features = features.ok_or(OperationError::Cancelled)?;
-        Ok::<usize, OperationError>(features.count(Feature::CurvatureExtremum))
+        let kinds = [Feature::CurvatureExtremum, Feature::Inflection];
+        Ok::<[usize; 2], OperationError>(kinds.map(|it| features.count(it)))
+    };
+    let own = features(&curve.polygon)?;
+    let added = |polygon: &FloatPolygon| {
+        let counts = features(polygon)?.into_iter().zip(own);
+        Ok::<usize, OperationError>(counts.map(|(now, own)| now.saturating_sub(own)).sum())
     };
     let Some(polygon) = &nearest.polygon else {
         return Ok(nearest);
     };
-    let (own, mut fewest) = (extrema(&curve.polygon)?, extrema(polygon)?);
-    let most = HARDLY_FARTHER * curve.polygon.deviation(polygon)?;
+    let mut fewest = added(polygon)?;
+    let most = LITTLE_FARTHER * curve.polygon.deviation(polygon)?;
     let mut fairest = nearest;
-    for order in [2, 3] {
-        if fewest <= own {
+    for other in FAIRER {
+        if fewest == 0 {
             break;
         }
-        let other = least(Disturbance::Differences(order))?;
+        let other = least(other)?;
         let Some(polygon) = &other.polygon else {
             continue;
         };
         let is_near = curve.polygon.deviation(polygon)? <= most
             && turned_over(&curve.polygon, polygon).is_none();
-        let count = extrema(polygon)?;
+        let count = added(polygon)?;
         if is_near && count < fewest {
             (fewest, fairest) = (count, other);
         }

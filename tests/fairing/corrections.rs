@@ -141,14 +141,12 @@ fn more_vertices_make_the_loop_converge_faster() {
 }
 
 #[track_caller]
-fn check_joint(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> JointCorrection {
-    let found = match correct_jointly(
-        polygon,
-        targets,
-        Disturbance::Differences(1),
-        &[],
-        &Progress::default(),
-    ) {
+fn check_joint(
+    polygon: &FloatPolygon,
+    targets: &[(End, EndTarget)],
+    disturbance: Disturbance,
+) -> JointCorrection {
+    let found = match correct_jointly(polygon, targets, disturbance, &[], &Progress::default()) {
         Ok(found) => found,
         Err(error) => panic!("{error}: {polygon:?} {targets:?}"),
     };
@@ -166,6 +164,14 @@ fn check_joint(polygon: &FloatPolygon, targets: &[(End, EndTarget)]) -> JointCor
     found
 }
 
+/// The disturbances by differences of order 1 to 3, of turned ends or not.
+fn disturbances(turned: bool) -> [Disturbance; 3] {
+    [1, 2, 3].map(|order| match turned {
+        true => Disturbance::Turned(order),
+        false => Disturbance::Differences(order),
+    })
+}
+
 fn check_joint_for_many(seed: u64, in_space: bool, rational: bool) {
     let mut random = Random(seed);
     for trial in 0..TRIALS {
@@ -174,9 +180,10 @@ fn check_joint_for_many(seed: u64, in_space: bool, rational: bool) {
         let count = fewest + (trial / 11) % (degree + 2);
         let polygon = arc(&mut random, degree, count, in_space, rational);
         let targets = targets_near(&mut random, &polygon, 0.01, 0.03, in_space);
-        let found = check_joint(&polygon, &targets);
+        let turned = trial % 2 == 0;
+        let found = check_joint(&polygon, &targets, disturbances(turned)[0]);
         if trial % 7 == 0 {
-            let expected = dense_moves(&polygon, &targets, in_space);
+            let expected = dense_moves(&polygon, &targets, in_space, turned);
             let moves = polygon.vertices().iter().zip(found.polygon.vertices());
             let scale = moves.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
             for (index, expected) in expected.iter().enumerate() {
@@ -213,18 +220,60 @@ fn arc(
     FloatPolygon::new(degree, vertices, weights, false).expect("a valid polygon")
 }
 
-/// Solve for the moves with one dense system of moves and multipliers.
-fn dense_moves(polygon: &FloatPolygon, targets: &[(End, EndTarget)], in_space: bool) -> Vec<DVec3> {
-    let count = polygon.vertices().len();
-    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
-    let dimensions = if in_space { 3 } else { 2 };
-    let mut rows: Vec<(Vec<f64>, DVec3, f64)> = Vec::new();
-    for (end, target) in targets {
-        let (point, tangent) = end_influence(polygon, *end);
-        let jet = polygon.end_jet(*end);
-        for axis in &axes[..dimensions] {
-            rows.push((point.clone(), *axis, (target.point - jet.point).dot(*axis)));
-        }
+/// Solve for the moves with dense systems: of turned ends for the points alone, whose derivatives have the lengths that
+/// are kept, then for all. Without vertices enough for these lengths they are free.
+fn dense_moves(
+    polygon: &FloatPolygon,
+    targets: &[(End, EndTarget)],
+    in_space: bool,
+    turned: bool,
+) -> Vec<DVec3> {
+    let (points, directions) = (
+        point_rows(polygon, targets, in_space),
+        direction_rows(polygon, targets, in_space),
+    );
+    let moves = dense_solution(polygon, &points, in_space);
+    let moved = polygon.vertices().iter().zip(moves).enumerate();
+    let moved: Vec<(usize, DVec3)> = moved
+        .map(|(index, (vertex, movement))| (index, *vertex + movement))
+        .collect();
+    let mut placed = polygon.clone();
+    placed.move_vertices(moved).expect("in range");
+    let lengths = targets.iter().map(|(end, target)| {
+        let (_, tangent) = end_influence(polygon, *end);
+        let direction = target.direction.expect("a direction").normalize();
+        let own = polygon.end_jet(*end).first.dot(direction);
+        (tangent, direction, placed.end_jet(*end).speed() - own)
+    });
+    let rows: Vec<Row> = points.into_iter().chain(directions).collect();
+    let all: Vec<Row> = rows.iter().cloned().chain(lengths).collect();
+    let unknowns = polygon.vertices().len() * if in_space { 3 } else { 2 };
+    let turns = turned && all.len() <= unknowns;
+    dense_solution(polygon, if turns { &all } else { &rows }, in_space)
+}
+
+/// Weights of the vertices' moves along an axis, and their sum.
+type Row = (Vec<f64>, DVec3, f64);
+
+fn point_rows(polygon: &FloatPolygon, targets: &[(End, EndTarget)], in_space: bool) -> Vec<Row> {
+    let axes = &[DVec3::X, DVec3::Y, DVec3::Z][..if in_space { 3 } else { 2 }];
+    let rows = targets.iter().flat_map(|(end, target)| {
+        let (point, _) = end_influence(polygon, *end);
+        let by = target.point - polygon.end_jet(*end).point;
+        let row = move |axis: &DVec3| (point.clone(), *axis, by.dot(*axis));
+        axes.iter().map(row)
+    });
+    rows.collect()
+}
+
+fn direction_rows(
+    polygon: &FloatPolygon,
+    targets: &[(End, EndTarget)],
+    in_space: bool,
+) -> Vec<Row> {
+    let rows = targets.iter().flat_map(|(end, target)| {
+        let (_, tangent) = end_influence(polygon, *end);
+        let own = polygon.end_jet(*end).first;
         let direction = target.direction.expect("a direction").normalize();
         let across = if in_space {
             let (first, second) = direction.any_orthonormal_pair();
@@ -232,10 +281,17 @@ fn dense_moves(polygon: &FloatPolygon, targets: &[(End, EndTarget)], in_space: b
         } else {
             vec![DVec3::new(-direction.y, direction.x, 0.0)]
         };
-        for axis in across {
-            rows.push((tangent.clone(), axis, -jet.first.dot(axis)));
-        }
-    }
+        let row = move |axis: DVec3| (tangent.clone(), axis, -own.dot(axis));
+        across.into_iter().map(row)
+    });
+    rows.collect()
+}
+
+/// The least moves under rows, from one dense system of moves and multipliers.
+fn dense_solution(polygon: &FloatPolygon, rows: &[Row], in_space: bool) -> Vec<DVec3> {
+    let count = polygon.vertices().len();
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let dimensions = if in_space { 3 } else { 2 };
     let unknowns = count * dimensions;
     let mut matrix = DMatrix::zeros(unknowns + rows.len(), unknowns + rows.len());
     for dimension in 0..dimensions {
@@ -320,7 +376,7 @@ fn joint_correction_of_the_ninth_degree_arc() {
     let mut random = Random(14);
     for _ in 0..TRIALS {
         let targets = targets_near(&mut random, &arc, 0.02, 0.1, false);
-        let found = check_joint(&arc, &targets);
+        let found = check_joint(&arc, &targets, Disturbance::Differences(1));
         assert!(found.polygon.is_planar());
     }
 }
@@ -355,7 +411,9 @@ fn degree_1_has_its_direction_from_two_vertices() {
     for count in 4..8 {
         let polygon = arc(&mut random, 1, count, false, false);
         let targets = targets_near(&mut random, &polygon, 0.05, 0.2, false);
-        check_joint(&polygon, &targets);
+        for turned in [false, true] {
+            check_joint(&polygon, &targets, disturbances(turned)[0]);
+        }
         let tolerance = MET * polygon.size();
         let outcome = correct_in_turn(&polygon, &targets, tolerance).expect("in range");
         assert!(outcome.converged && outcome.passes() == 1);
@@ -366,7 +424,9 @@ fn degree_1_has_its_direction_from_two_vertices() {
         targets
             .iter_mut()
             .for_each(|(_, target)| target.direction = None);
-        check_joint(&polygon, &targets);
+        for turned in [false, true] {
+            check_joint(&polygon, &targets, disturbances(turned)[0]);
+        }
     }
 }
 
@@ -488,8 +548,8 @@ fn curvature_and_slope_are_met_where_they_can_be() {
             level -= 1;
         }
         let targets = End::BOTH.map(|end| (end, target_of(&perturbed, end, level)));
-        for order in 1..=3 {
-            let disturbance = Disturbance::Differences(order);
+        let turned = trial % 80 < 40 && level > 0 && conditions(level, !in_space) + 2 <= freedoms;
+        for (order, disturbance) in (1..=3).zip(disturbances(turned)) {
             let found = match correct_jointly(
                 &polygon,
                 &targets,
@@ -505,7 +565,7 @@ fn curvature_and_slope_are_met_where_they_can_be() {
             };
             let size = polygon.size();
             if trial % 40 == 0 {
-                let slope = unexplained(&polygon, &found.polygon, level, order);
+                let slope = unexplained(&polygon, &found.polygon, (level, turned), order);
                 assert!(
                     slope <= STATIONARY,
                     "trial {trial} order {order}: {slope:e}"
@@ -543,8 +603,14 @@ fn curvature_and_slope_are_met_where_they_can_be() {
 const STATIONARY: f64 = 1e-4;
 
 /// The share of the gradient of the objective at a correction that is no combination of gradients of
-/// what is held at the ends: 0 where what is not asked about moves least.
-fn unexplained(before: &FloatPolygon, after: &FloatPolygon, level: usize, order: usize) -> f64 {
+/// what is held at the ends, of turned ends the lengths of the derivatives too: 0 where what is not asked about moves
+/// least.
+fn unexplained(
+    before: &FloatPolygon,
+    after: &FloatPolygon,
+    (level, turned): (usize, bool),
+    order: usize,
+) -> f64 {
     let dimensions = if before.is_planar() { 2 } else { 3 };
     let count = before.vertices().len();
     let unknowns = count * dimensions;
@@ -582,6 +648,7 @@ fn unexplained(before: &FloatPolygon, after: &FloatPolygon, level: usize, order:
             let normal = target.normal.unwrap_or_default();
             numbers.extend(normal.normalize_or_zero().to_array());
             numbers.extend(target.slope);
+            numbers.extend(Some(polygon.end_jet(end).speed()).filter(|_| turned));
             numbers
         });
         ends.collect()

@@ -1,6 +1,7 @@
 //! Operations that bring ends to their targets.
 
 use batten::geometry::end_correction::{EndDifference, EndTarget};
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::{End, FloatPolygon, Progress};
 use batten::operations::{Annotation, Deviation, Report, Value};
 use glam::DVec3;
@@ -236,6 +237,59 @@ fn the_curve_moves_least_where_its_vertices_would_take_it_far() {
     );
     assert_eq!(automatic, by_curve);
     assert!(said.contains("The curve moves least"), "{said}");
+}
+
+#[test]
+fn an_end_that_turns_does_not_bend_sharply() {
+    // A handle that leaves its body 24° too flat, and bends less than it.
+    let vertices = [
+        (-17.7, 182.8),
+        (2.1, 218.4),
+        (23.2, 243.4),
+        (46.0, 254.6),
+        (70.0, 248.2),
+        (90.2, 229.6),
+        (96.9, 200.8),
+        (92.0, 177.8),
+        (79.9, 155.7),
+        (63.8, 141.6),
+        (45.7, 132.8),
+        (26.5, 127.4),
+    ];
+    let polygon = FloatPolygon::planar(5, &vertices).expect("a polygon");
+    let sharpest = |polygon: &FloatPolygon| {
+        let samples = (0..=700).map(|step| polygon.jet(f64::from(step) / 100.0));
+        let curvatures = samples.map(|jet| jet.signed_curvature().abs());
+        curvatures.fold(0.0, f64::max)
+    };
+    let extrema = |polygon: &FloatPolygon| {
+        let features = Features::proved(polygon, |_| true).expect("not cancelled");
+        features.count(Feature::CurvatureExtremum)
+    };
+    let body = EndTarget {
+        direction: Some(DVec3::new(0.449, 0.894, 0.0)),
+        curvature: Some(-0.0225),
+        ..EndTarget::keeping(&polygon.end_jet(End::Start))
+    };
+    let speed = polygon.end_jet(End::Start).speed();
+    assert!((0.029..0.031).contains(&sharpest(&polygon)));
+    let corrected = |order: usize| {
+        let runner = Runner::of(polygon.clone()).with_target(End::Start, body);
+        let given = ("order", Value::Choice(order));
+        let (_, curves) = runner.done("correct-ends", &[given]);
+        curves[0].polygon.clone()
+    };
+    let found = corrected(0);
+    // The end turns as a whole.
+    let turned = found.end_jet(End::Start).speed();
+    assert!((turned / speed - 1.0).abs() <= MET, "{turned}");
+    assert!(extrema(&found) <= extrema(&polygon));
+    let moves = polygon.vertices().iter().zip(found.vertices());
+    let farthest = moves.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    assert!(farthest < 0.3 * polygon.size(), "{farthest}");
+    // The least moves shorten its derivative, and bend it sharply.
+    let [turned, least] = [found, corrected(1)].map(|it| sharpest(&it));
+    assert!(turned < 0.05 && least > 0.06, "{turned} {least}");
 }
 
 #[test]

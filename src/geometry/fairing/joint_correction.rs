@@ -82,6 +82,9 @@ pub enum Disturbance {
     /// The k-th differences of the vertices' moves, k = 1, 2 or 3: 1 moves the vertices least, 3
     /// bends the curve most evenly.
     Differences(usize),
+    /// The same, with derivatives at the ends that turn to their directions and keep their lengths, as those of rotated
+    /// ends do: shorter ones, which move the vertices less, bend the curve sharply.
+    Turned(usize),
     /// The moves of the curve, and of its second derivative: the least for a curve whose outer vertices hardly
     /// matter.
     Curve,
@@ -116,8 +119,9 @@ pub struct JointCorrection {
 /// The moves δ minimise Σ|Δᵏδᵢ|² + μ Σ|δᵢ|², or the harmony functional. Points and directions are
 /// linear in the vertices and met at once; curvatures and slopes are approached by Newton's steps,
 /// and where those fail from what the curve has, part by part. A planar curve with planar targets
-/// stays planar. Should a tangent come out backwards, the system is solved again with the
-/// tangent's old length prescribed.
+/// stays planar. The derivatives of turned ends have the lengths that they have once the points alone are met; where
+/// there are too few vertices for that, these are free. Should a free tangent come out backwards, the system is solved
+/// again with such a length.
 ///
 /// # Errors
 /// [`CorrectionError`] if the curve is periodic, a direction is 0, the conditions cannot be met, or
@@ -130,12 +134,7 @@ pub fn correct_jointly(
     progress: &Progress,
 ) -> Result<JointCorrection, CorrectionError> {
     let correction = Correction::checked(polygon, targets, disturbance, locked, progress)?;
-    let free = correction.solve(Speed::Free);
-    match free {
-        // A backward tangent is half a turn away from its target, so the target counts as missed.
-        Err(CorrectionError::NotSolvable { .. }) => correction.solve(Speed::Kept).or(free),
-        other => other,
-    }
+    correction.with_speeds(|speeds| correction.solve(speeds))
 }
 
 /// Correct as [`correct_jointly`] does, by its first steps alone: targets that could not be met a moment
@@ -151,16 +150,14 @@ pub fn correct_hastily(
     progress: &Progress,
 ) -> Result<JointCorrection, CorrectionError> {
     let correction = Correction::checked(polygon, targets, disturbance, locked, progress)?;
-    let problem = correction.problem(targets, Speed::Free);
-    correction.finish(&problem, problem.before(), HASTY_STEPS)
+    correction.with_speeds(|speeds| {
+        let problem = correction.problem(targets, speeds);
+        correction.finish(&problem, problem.before(), HASTY_STEPS)
+    })
 }
 
-/// Whether the length of an end's derivative is free or kept.
-#[derive(Clone, Copy, PartialEq)]
-enum Speed {
-    Free,
-    Kept,
-}
+/// The lengths of the derivatives at the ends of the targets; `None` where they are free.
+type Speeds = Option<[f64; 2]>;
 
 struct Correction<'a> {
     polygon: &'a FloatPolygon,
@@ -201,12 +198,62 @@ impl<'a> Correction<'a> {
         }
     }
 
-    fn solve(&self, speed: Speed) -> Result<JointCorrection, CorrectionError> {
-        let problem = self.problem(self.targets, speed);
+    /// Correct with the lengths of the derivatives that the disturbance asks for, and with the others where that cannot
+    /// be: a free tangent that comes out backward is half a turn away from its target, which is missed then.
+    fn with_speeds(
+        &self,
+        correct: impl Fn(Speeds) -> Result<JointCorrection, CorrectionError>,
+    ) -> Result<JointCorrection, CorrectionError> {
+        let is_missed = |it: &Result<_, _>| matches!(it, Err(CorrectionError::NotSolvable { .. }));
+        let turned = || self.speeds().map(|speeds| correct(Some(speeds)));
+        if let Disturbance::Turned(_) = self.disturbance {
+            let turned = turned().filter(|it| !is_missed(it));
+            return turned.unwrap_or_else(|| correct(None));
+        }
+        let free = correct(None);
+        match is_missed(&free) {
+            true => turned().filter(|it| !is_missed(it)).unwrap_or(free),
+            false => free,
+        }
+    }
+
+    /// The lengths of the derivatives at the start and the finish once the points alone are met; `None` if those
+    /// cannot be met, no end has a direction, or there are too few vertices.
+    fn speeds(&self) -> Speeds {
+        let mut targets = self.targets.iter();
+        if !targets.any(|(_, target)| target.direction.is_some()) {
+            return None;
+        }
+        let points = self.targets_with(|_, target| EndTarget {
+            point: target.point,
+            ..EndTarget::default()
+        });
+        let speeds = |polygon: &FloatPolygon| End::BOTH.map(|end| polygon.end_jet(end).speed());
+        let lengths = if self.is_met(self.polygon, &points) {
+            speeds(self.polygon)
+        } else {
+            let problem = self.problem(&points, None);
+            let placed = self.meet(&problem, self.order(), problem.before(), 1)?;
+            speeds(&problem.polygon(&placed.vertices).ok()?)
+        };
+        let problem = self.problem(self.targets, Some(lengths));
+        (problem.conditions() <= problem.freedoms()).then_some(lengths)
+    }
+
+    /// The order of the differences.
+    fn order(&self) -> usize {
+        match self.disturbance {
+            Disturbance::Differences(order) | Disturbance::Turned(order) => order,
+            Disturbance::Curve | Disturbance::Harmony => 1,
+        }
+    }
+
+    fn solve(&self, speeds: Speeds) -> Result<JointCorrection, CorrectionError> {
+        let problem = self.problem(self.targets, speeds);
         let direct = self.finish(&problem, problem.before(), problem::MOST_STEPS);
         match direct {
             Err(CorrectionError::NotSolvable { .. }) if self.bends() => {
-                self.part_by_part(speed).unwrap_or(direct)
+                self.part_by_part(speeds).unwrap_or(direct)
             }
             other => other,
         }
@@ -218,7 +265,7 @@ impl<'a> Correction<'a> {
         targets.any(|(_, target)| target.curvature.is_some() || target.slope.is_some())
     }
 
-    fn problem(&self, targets: &[(End, EndTarget)], speed: Speed) -> Problem<'_> {
+    fn problem(&self, targets: &[(End, EndTarget)], speeds: Speeds) -> Problem<'_> {
         let polygon = self.polygon;
         let mut targets_and_own = targets.iter();
         let planar = polygon.is_planar() && targets_and_own.all(|(_, target)| target.is_planar());
@@ -226,8 +273,11 @@ impl<'a> Correction<'a> {
         let mut problem = Problem::new(polygon, planar, moves);
         problem.end_with(self.progress);
         for (end, target) in targets {
-            let kept = (speed == Speed::Kept).then(|| polygon.end_jet(*end).speed());
-            problem.hold(end.parameter(polygon), target, kept);
+            let speed = speeds.map(|[start, finish]| match end {
+                End::Start => start,
+                End::Finish => finish,
+            });
+            problem.hold(end.parameter(polygon), target, speed);
         }
         problem
     }
@@ -270,11 +320,7 @@ impl<'a> Correction<'a> {
         most: usize,
     ) -> Result<JointCorrection, CorrectionError> {
         let unsolved = |residual| self.not_solvable(problem, residual);
-        let order = match self.disturbance {
-            Disturbance::Differences(order) => order,
-            Disturbance::Curve | Disturbance::Harmony => 1,
-        };
-        let found = self.meet(problem, order, begin, most);
+        let found = self.meet(problem, self.order(), begin, most);
         let mut found = found.ok_or_else(|| unsolved(self.residual(self.polygon)))?;
         if self.disturbance == Disturbance::Harmony {
             let objective = problem.harmony(problem.measure(), 2, CLOSENESS);
@@ -301,13 +347,13 @@ impl<'a> Correction<'a> {
 
     /// Approach curvatures and slopes from those that the curve has once points and directions are
     /// met. `None` if even those cannot be met.
-    fn part_by_part(&self, speed: Speed) -> Option<Result<JointCorrection, CorrectionError>> {
+    fn part_by_part(&self, speeds: Speeds) -> Option<Result<JointCorrection, CorrectionError>> {
         let placed = self.targets_with(|_, target| EndTarget {
             curvature: None,
             slope: None,
             ..target
         });
-        let problem = self.problem(&placed, speed);
+        let problem = self.problem(&placed, speeds);
         let mut reached = self.meet(&problem, 1, problem.before(), problem::MOST_STEPS)?;
         let begun = problem.polygon(&reached.vertices).ok()?;
         let (mut done, mut part) = (0.0, 0.5);
@@ -315,7 +361,7 @@ impl<'a> Correction<'a> {
         while done < 1.0 && part * MOST_PARTS >= 1.0 && !self.progress.is_cancelled() {
             let share: f64 = f64::min(1.0, done + part);
             let targets = self.targets_with(|end, target| partial(&begun, end, &target, share));
-            let problem = self.problem(&targets, speed);
+            let problem = self.problem(&targets, speeds);
             let next = self.meet(&problem, 1, &reached.vertices, problem::MOST_STEPS)?;
             steps += next.steps;
             let polygon = problem.polygon(&next.vertices);
@@ -327,7 +373,7 @@ impl<'a> Correction<'a> {
                 part *= 0.5;
             }
         }
-        let problem = self.problem(self.targets, speed);
+        let problem = self.problem(self.targets, speeds);
         let found = self.finish(&problem, &reached.vertices, problem::MOST_STEPS);
         Some(found.map(|found| JointCorrection {
             steps: steps + found.steps,
