@@ -80,7 +80,7 @@ pub(super) fn pick_marks(subject: Option<&Subject>, context: &Context) -> Vec<Ma
     ends.chain(named).collect()
 }
 
-/// The point of another curve under a place.
+/// The point of another curve under a place, passed in the sense that turns the end less.
 fn on_curve(
     place: DVec2,
     subject: &Subject,
@@ -90,13 +90,16 @@ fn on_curve(
     let at = context.model(place);
     let passes = context.hits.passes(place, takes).into_iter();
     let hit = passes.min_by(|a, b| a.point.distance(at).total_cmp(&b.point.distance(at)))?;
+    let place = MatchPlace::Parameter(hit.u);
+    let along = place.jet(context.document.shape(hit.curve)?)?.first;
+    let own = subject.curve.polygon.end_jet(subject.end).first;
     Some(EndMatch {
         curve: subject.id,
         end: subject.end,
         source: hit.curve,
-        place: MatchPlace::Parameter(hit.u),
+        place,
         continuity: Continuity::default(),
-        reversed: false,
+        reversed: own.dot(along) < 0.0,
     })
 }
 
