@@ -238,6 +238,13 @@ impl History {
         Some(label)
     }
 
+    /// The document before the last steps that bear such labels; as it is now if the last step does not.
+    pub fn before(&self, labels: &[&str]) -> &Document {
+        let steps = self.undo.iter().rev();
+        let steps = steps.take_while(|step| labels.contains(&step.label.as_str()));
+        steps.last().map_or(&self.document, |step| &step.document)
+    }
+
     /// The label of the step that undo would take back.
     pub fn undo_label(&self) -> Option<&str> {
         let preview = self.preview.as_ref().map(|preview| &preview.step);

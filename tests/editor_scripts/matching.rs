@@ -150,6 +150,70 @@ fn a_match_raised_level_by_level_warns_where_it_bends() {
 }
 
 #[test]
+fn a_point_is_passed_in_the_sense_that_turns_the_end_less() {
+    for runs_back in [false, true] {
+        let (mut script, ids) = script();
+        if runs_back {
+            let turned = curve(&script, ids[0]).polygon.reversed();
+            let edit = Edit::SetPolygon {
+                curve: ids[0],
+                polygon: turned,
+            };
+            let reply = script.editor.apply("Reverse", vec![edit]);
+            reply.expect("it can be reversed");
+        }
+        for end in End::BOTH {
+            let own = curve(&script, ids[1]).polygon.end_jet(end).first;
+            script.end_fit_action(EndFitAction::Choose(end));
+            script.end_fit_action(EndFitAction::SetContinuity(Continuity::G2));
+            script.end_fit_action(EndFitAction::KeepMatched(true));
+            script.end_fit_action(EndFitAction::PickFromCurve);
+            let point = curve(&script, ids[0]).polygon.point(1.5);
+            script.click(at(&script, point));
+            let target = curve(&script, ids[1]).targets.get(end);
+            let along = target.and_then(|it| it.direction).expect("a direction");
+            assert!(along.dot(own) > 0.0, "{end:?} {runs_back}: {along}");
+            assert_eq!(first_match(&script).reversed, runs_back, "{end:?}");
+            script.command(Command::Undo);
+        }
+    }
+}
+
+#[test]
+fn a_match_is_flipped_from_the_curve_before_it() {
+    let (mut script, ids) = script();
+    pick_end(&mut script, ids, Continuity::G2, true);
+    let matched = curve(&script, ids[1]).polygon;
+    let flip = |script: &mut Script| script.end_fit_action(EndFitAction::TurnRound);
+    flip(&mut script);
+    assert!(missing(&script, &first_match(&script)) <= MET);
+    flip(&mut script);
+    assert_eq!(curve(&script, ids[1]).polygon, matched);
+    // Another level begins there too.
+    for level in [Continuity::G0, Continuity::G2] {
+        script.end_fit_action(EndFitAction::SetContinuity(level));
+    }
+    assert_eq!(curve(&script, ids[1]).polygon, matched);
+    // What is changed since is kept.
+    flip(&mut script);
+    let flipped = curve(&script, ids[1]).polygon;
+    flip(&mut script);
+    let moved = Edit::MoveVertices {
+        curve: ids[1],
+        moves: vec![(5, DVec3::new(13.2, 0.4, 0.0))],
+    };
+    let reply = script.editor.apply("Move", vec![moved]);
+    reply.expect("it can be moved");
+    let moved = curve(&script, ids[1]).polygon;
+    flip(&mut script);
+    let by = curve(&script, ids[1]).polygon.vertex(5) - flipped.vertex(5);
+    assert!(by.length() > 0.3, "{by}");
+    flip(&mut script);
+    assert_eq!(curve(&script, ids[1]).polygon, moved);
+    script.undo_all();
+}
+
+#[test]
 fn a_live_match_follows_a_drag_of_the_other_curve_within_its_step() {
     for level in Continuity::ALL {
         let (mut script, ids) = script();

@@ -1,14 +1,20 @@
 //! The actions of the end-fit panel: the seven steps by button.
 
-use crate::document::{Curve, CurveId, Document, Edit, EndMatch, quoted};
+use crate::document::{Curve, CurveId, Edit, EndMatch, History, quoted};
 use crate::editor::Editor;
-use crate::editor::hand::end_fit::{EndFitAction, EndFitSettings};
+use crate::editor::hand::end_fit::{EndFitAction, EndFitSettings, MATCH_END};
 use crate::editor::operating::EndFitStep;
 use crate::editor::reply::{Message, Note, Refusal, Reply};
 use crate::editor::view::layers::{Layer, Layers};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::{Continuity, End};
 use crate::operations::{Operation, Value, correct_ends, rotate_end, translate_end};
+
+const CHANGE_MATCH: &str = "Change match";
+const FLIP_MATCH: &str = "Flip match";
+
+/// The steps that match an end.
+const MATCHING: [&str; 3] = [MATCH_END, CHANGE_MATCH, FLIP_MATCH];
 
 impl Editor {
     /// Do one thing of the end-fit panel, which tells what it came to; what is being tried out is
@@ -46,8 +52,8 @@ impl Editor {
             None => {
                 let settings = &mut self.hand.settings.end_fit;
                 let layers = &mut self.view.layers;
-                let document = self.workspace.document();
-                let edits = set_up(action, (id, &curve), document, settings, layers);
+                let history = self.workspace.history();
+                let edits = set_up(action, (id, &curve), history, settings, layers);
                 edits.and_then(|edits| match edits {
                     Some((label, edits)) => self.make(label, edits, false),
                     None => Ok(Note::silent()),
@@ -71,10 +77,11 @@ impl Editor {
 fn set_up(
     action: EndFitAction,
     (id, curve): (CurveId, &Curve),
-    document: &Document,
+    history: &History,
     settings: &mut EndFitSettings,
     layers: &mut Layers,
 ) -> Result<Option<(&'static str, Vec<Edit>)>, Refusal> {
+    let document = history.document();
     let end = settings.end;
     let matched = document.match_of(id, end).copied();
     match action {
@@ -110,7 +117,7 @@ fn set_up(
                 continuity,
                 ..matched
             };
-            return Ok(Some(("Change match", vec![Edit::SetMatch(changed)])));
+            return Ok(Some((CHANGE_MATCH, rematch(history, changed))));
         }
         EndFitAction::KeepMatched(live) => {
             settings.live = live;
@@ -128,15 +135,14 @@ fn set_up(
                 continuity: settings.continuity,
                 ..picked
             });
-            return Ok(kept.map(|kept| ("Match end", vec![Edit::SetMatch(kept)])));
+            return Ok(kept.map(|kept| (MATCH_END, vec![Edit::SetMatch(kept)])));
         }
         EndFitAction::TurnRound if matched.is_some() => {
             let turned = matched.map(|matched| EndMatch {
                 reversed: !matched.reversed,
                 ..matched
             });
-            let edits = turned.into_iter().map(Edit::SetMatch).collect();
-            return Ok(Some(("Flip match", edits)));
+            return Ok(turned.map(|turned| (FLIP_MATCH, rematch(history, turned))));
         }
         _ => {}
     }
@@ -151,6 +157,22 @@ fn set_up(
         target,
     });
     Ok(Some((label, edits)))
+}
+
+/// The edits that change a match. They begin from the curve before it was matched, if nothing else came in between:
+/// what a match in the wrong sense made of it does not count.
+fn rematch(history: &History, matched: EndMatch) -> Vec<Edit> {
+    let id = matched.curve;
+    let [now, before] = [history.document(), history.before(&MATCHING)]
+        .map(|document| document.curve(id).map(|curve| &curve.polygon));
+    let begun = before.filter(|before| {
+        now.is_some_and(|now| now != *before && now.vertices().len() == before.vertices().len())
+    });
+    let begin = begun.map(|polygon| Edit::SetPolygon {
+        curve: id,
+        polygon: polygon.clone(),
+    });
+    begin.into_iter().chain([Edit::SetMatch(matched)]).collect()
 }
 
 impl EndFitAction {

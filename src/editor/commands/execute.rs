@@ -12,6 +12,7 @@ use crate::editor::commands::end_matches;
 use crate::editor::commands::items::{self, Change};
 use crate::editor::commands::locking;
 use crate::editor::commands::references::{addition, new_formula, new_reference};
+use crate::editor::hand::end_fit::MATCH_END;
 use crate::editor::operating::OperationInProgress;
 use crate::editor::reply::{Message, Note, Reply, with_lines};
 use crate::editor::selection::{Selection, VertexId};
@@ -209,7 +210,7 @@ impl Editor {
             Command::Arrange(arrangement) => return arrange(self, arrangement),
             Command::Match(source, level) => {
                 let edits = end_matches::edits(self, source, level).unwrap_or_default();
-                return self.apply("Match end", edits);
+                return self.apply(MATCH_END, edits);
             }
             Command::RemoveGuides => {
                 let edits = vec![Edit::SetGuideLines(Vec::new())];

@@ -194,6 +194,9 @@ pub enum EndFitAction {
     SetTolerance(f64),
 }
 
+/// The label of the step that matches an end.
+pub const MATCH_END: &str = "Match end";
+
 /// Hold the settings of the end-fit tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EndFitSettings {

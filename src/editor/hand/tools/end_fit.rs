@@ -9,6 +9,7 @@ use super::end_fit_subject::{Handle, Subject};
 use super::end_pick::{EndPick, pick_marks};
 use super::tool::{Context, Cursor, Effect, Tool, named_snap, pointer_label};
 use crate::document::Edit;
+use crate::editor::hand::end_fit::MATCH_END;
 use crate::editor::hand::following::{Followers, Following};
 use crate::editor::hand::gesture::Gesture;
 use crate::editor::hand::input::Key;
@@ -262,7 +263,7 @@ impl EndFitTool {
         };
         let (curve, end) = (subject.id, subject.end);
         let (label, edits) = match context.settings.end_fit.live {
-            true => ("Match end", vec![Edit::SetMatch(matched)]),
+            true => (MATCH_END, vec![Edit::SetMatch(matched)]),
             false => {
                 let remove = Edit::RemoveMatch { curve, end };
                 ("Pick target", vec![remove, subject.with_target(target)])
