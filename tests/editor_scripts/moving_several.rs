@@ -2,8 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use batten::document::{CurveId, Document, Edit};
+use batten::document::{Curve, CurveId, Document, Edit};
 use batten::editor::{Command, Key, ToolKind, Transformation};
+use batten::geometry::FloatPolygon;
 use glam::{DVec2, DVec3};
 
 use super::script::Script;
@@ -70,6 +71,42 @@ fn a_drag_of_one_moves_all_that_are_selected() {
     script.move_to(from);
     script.release(from);
     assert!(script.editor.document().is_same(&before));
+}
+
+#[test]
+fn vertices_on_a_selected_curve_do_not_keep_it_from_moving_as_a_whole() {
+    let (mut script, [arc, ..]) = four();
+    let middle = script.at_vertex_of(arc, 2);
+    let corner = {
+        let viewport = script.editor.view().viewport();
+        viewport.to_model(middle + DVec2::new(0.0, 120.0))
+    };
+    let vertex = |step: usize| (corner.x + 0.1 * step as f64, corner.y);
+    let vertices: Vec<(f64, f64)> = (0..7).map(vertex).collect();
+    let line = FloatPolygon::planar(3, &vertices).expect("a polygon");
+    let edit = Edit::Add(Box::new(Curve::new("line", line)));
+    let reply = script.editor.apply("Add", vec![edit]);
+    reply.expect("it can be added");
+    let line = script.editor.document().ids().last().expect("a curve");
+    script.editor.hand_mut().select_items([arc, line]);
+    let before = script.editor.document().clone();
+    let from = script.at_vertex_of(line, 3);
+    script.drag(from, from + DVec2::new(30.0, 20.0));
+    let way = DVec3::new(30.0, -20.0, 0.0) * script.editor.view().viewport().pixel();
+    for id in [arc, line] {
+        let moved = moved(&before, script.editor.document(), id);
+        assert!(moved.distance(way) < 1e-9, "{moved} instead of {way}");
+    }
+    script.command(Command::Undo);
+    // Alone it is reshaped there.
+    script.editor.hand_mut().select_items([line]);
+    script.drag(from, from + DVec2::new(30.0, 20.0));
+    let [from, to] = [&before, script.editor.document()].map(|it| places(it, line));
+    let moves: Vec<DVec3> = from.iter().zip(&to).map(|(from, to)| *to - *from).collect();
+    assert!(
+        moves[3].distance(moves[0]) > 0.1 * way.length(),
+        "{moves:?}"
+    );
 }
 
 #[test]

@@ -213,7 +213,7 @@ impl Tool for SelectTool {
                 } else if context.document.is_empty() {
                     "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
                 } else {
-                    "Drag a vertex or the curve; a box selects".into()
+                    "Drag a vertex or the curve, after a double-click the whole curve; a box selects".into()
                 }
             }
         }
@@ -301,6 +301,13 @@ impl SelectTool {
         {
             return self.start_reference(ReferenceDrag::by_handle(handle, &frame, place, context));
         }
+        // Vertices may lie on the curves: what is selected as a whole moves as a whole.
+        if let Some(grip) = context.hits.curve(place)
+            && let Some((drag, effects)) = ItemDrag::begin(place, grip, context)
+        {
+            self.state = drag.map_or(State::Idle, State::Items);
+            return effects;
+        }
         if let Some(vertex) = context.hits.vertex(place) {
             return self.start_moving(place, vertex, context);
         }
@@ -310,12 +317,6 @@ impl SelectTool {
         let curve = point_of_curve(place, context);
         if let Some(leg) = leg_before(place, curve, context) {
             return self.start_moving_leg(place, leg, context);
-        }
-        if let Some(grip) = context.hits.curve(place)
-            && let Some((drag, effects)) = ItemDrag::begin(place, grip, context)
-        {
-            self.state = drag.map_or(State::Idle, State::Items);
-            return effects;
         }
         if let Some(hit) = curve {
             let point = PointKind::OnCurve(hit.u);
