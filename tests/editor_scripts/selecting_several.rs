@@ -439,6 +439,37 @@ fn combs_stand_on_the_active_curve_the_selection_or_all_that_is_visible() {
 }
 
 #[test]
+fn combs_are_scaled_anew_when_a_sharper_curve_has_one_too() {
+    let (mut script, [arc, ..]) = four();
+    if !script.editor.sight().layers().shows(Layer::Comb) {
+        script.command(Command::ToggleLayer(Layer::Comb));
+    }
+    let corners = [
+        (0.0, 0.0),
+        (1.0, 0.0),
+        (1.002, 0.001),
+        (1.0, 0.002),
+        (0.0, 0.002),
+    ];
+    let needle = FloatPolygon::planar(3, &corners).expect("a polygon");
+    let edit = Edit::Add(Box::new(Curve::new("needle", needle)));
+    script.editor.apply("Add", vec![edit]).expect("an edit");
+    script.editor.activate(arc);
+    let scale = |script: &mut Script| {
+        script.check();
+        script.editor.view().comb().scale
+    };
+    let alone = scale(&mut script);
+    script.command(Command::ShowCombs(CombsOf::Visible));
+    let with_needle = scale(&mut script);
+    assert!(with_needle < 0.1 * alone, "{with_needle} {alone}");
+    // The scale stays while another curve becomes active.
+    let last = script.editor.document().ids().last().expect("a curve");
+    script.editor.activate(last);
+    assert_eq!(scale(&mut script), with_needle);
+}
+
+#[test]
 fn fitting_the_selection_fits_the_curves() {
     let (mut script, [arc, other, short, _]) = four();
     script.editor.hand_mut().select_items([other, short]);

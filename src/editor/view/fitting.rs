@@ -139,7 +139,7 @@ impl View {
         }
     }
 
-    /// Whether the longest tooth of a comb on the active curve can be read; so can one without teeth.
+    /// Whether the longest tooth of the combs can be read; so can one without teeth.
     fn is_legible(&self, comb: CombSettings, shown: Shown<'_>) -> bool {
         let whole = self.whole_comb_scale(shown);
         whole.is_none_or(|whole| LEGIBLE.contains(&(comb.scale / whole)))
@@ -187,7 +187,7 @@ impl View {
     }
 
     /// The curves and references whose combs are shown where combs are, visible or active.
-    fn with_comb(&self, shown: Shown<'_>) -> Vec<CurveId> {
+    pub(super) fn with_comb(&self, shown: Shown<'_>) -> Vec<CurveId> {
         if self.combs_of == CombsOf::Active {
             return shown.active().into_iter().collect();
         }

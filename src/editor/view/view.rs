@@ -60,8 +60,8 @@ pub struct View {
     /// How curvatures are written.
     pub curvature_display: CurvatureDisplay,
     pub(in crate::editor) comb: CombSettings,
-    /// The curve or reference that the comb was last made to suit.
-    combed: Option<CurveId>,
+    /// The curves and references that the comb was last made to suit.
+    combed: Vec<CurveId>,
     /// Which curves and references have a comb.
     pub combs_of: CombsOf,
     /// Whether the evolute of the active curve is drawn where it would cover much of the view.
@@ -110,7 +110,7 @@ pub(in crate::editor) struct Framing {
     /// How each pane sees the model, and the point about which it turns.
     panes: Vec<(Viewport, DVec3)>,
     comb: CombSettings,
-    combed: Option<CurveId>,
+    combed: Vec<CurveId>,
 }
 
 impl Framing {
@@ -127,7 +127,7 @@ impl View {
         Framing {
             panes: panes.map(|it| (it.viewport, it.target)).collect(),
             comb: self.comb,
-            combed: self.combed,
+            combed: self.combed.clone(),
         }
     }
 
@@ -198,8 +198,9 @@ impl View {
         self.analyse(shown.document());
         self.pictures.update(shown.document());
         // A drag that Esc takes back leaves the comb as it was.
-        if self.combed != shown.active() && !shown.is_holding {
-            self.combed = shown.active();
+        let combed = self.with_comb(shown);
+        if self.combed != combed && !shown.is_holding {
+            self.combed = combed;
             self.suit_comb(shown);
         }
         if let Some(active) = shown.active() {
