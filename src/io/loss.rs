@@ -1,9 +1,14 @@
 //! The losses of an export.
 
+use std::collections::HashMap;
 use std::fmt;
 
 use crate::document::{Curve, Document, Group, Reference, first_quoted, quoted};
 use crate::geometry::{End, PolygonKind, counted, rounded_up};
+
+/// A curve that moves by less than this share of its size has lost nothing that anybody could see or measure. Curves
+/// converted to clamped knots and back move by up to about 1e-14.
+const ROUNDING: f64 = 1e-12;
 
 /// Hold the bytes of a file to write, and their losses.
 #[derive(Clone, Debug, PartialEq)]
@@ -210,6 +215,26 @@ impl LossReport {
     /// Whether nothing is lost.
     pub fn is_empty(&self) -> bool {
         self.losses.is_empty() && self.of_document.is_empty()
+    }
+
+    /// Take out the digits that the curves of a document lose by rounding alone, as a report of their own.
+    pub fn take_rounding(&mut self, document: &Document) -> Self {
+        let curves = document.curves();
+        let sizes = curves.map(|(_, it)| (it.name.as_str(), it.polygon.size()));
+        let sizes: HashMap<&str, f64> = sizes.collect();
+        let is_rounding = |name: &str, loss: &Loss| match loss {
+            Loss::Digits { curve, .. } => {
+                *curve <= ROUNDING * sizes.get(name).copied().unwrap_or_default()
+            }
+            _ => false,
+        };
+        let all = std::mem::take(&mut self.losses).into_iter();
+        let (rounding, lost) = all.partition(|(name, loss)| is_rounding(name, loss));
+        self.losses = lost;
+        Self {
+            losses: rounding,
+            ..Self::new(self.format)
+        }
     }
 
     /// Add what a document has beside its curves and references.

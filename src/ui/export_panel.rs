@@ -289,6 +289,9 @@ fn forecast_ui(ui: &mut Ui, editor: &Editor) -> bool {
                 for line in &forecast.losses {
                     widgets::remark_with_icon(ui, Icon::TriangleAlert, line, tokens.warning);
                 }
+                for line in &forecast.rounding {
+                    widgets::remark_with_icon(ui, Icon::Info, line, tokens.faint_text);
+                }
             }
         }
     });

@@ -1,16 +1,11 @@
 //! The file of another program that is edited: saving writes the curves back in the format of the file.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::document::Document;
-use crate::io::{Format, Loss, LossReport, Original, Rest, WriteError, WrittenBack, formats};
-
-/// A curve that moves by less than this share of its size has lost nothing that anybody could see or measure. Curves
-/// converted to clamped knots and back move by up to about 1e-14.
-const ROUNDING: f64 = 1e-12;
+use crate::io::{Format, Original, Rest, WriteError, WrittenBack, formats};
 
 /// The file that the program was started to edit.
 #[derive(Clone, Debug)]
@@ -105,18 +100,8 @@ impl EditedFile {
             }
             _ => Vec::new(),
         };
-        let sizes: HashMap<&str, f64> = document
-            .curves()
-            .map(|(_, curve)| (curve.name.as_str(), curve.polygon.size()))
-            .collect();
-        let mut losses: LossReport = export.losses.clone();
-        losses.losses.retain(|(name, loss)| match loss {
-            Loss::Digits { curve, .. } => {
-                let size = sizes.get(name.as_str()).copied().unwrap_or_default();
-                *curve > ROUNDING * size
-            }
-            _ => true,
-        });
+        let mut losses = export.losses.clone();
+        losses.take_rounding(document);
         let lines = losses.to_string();
         let lines = lines.lines().map(str::to_owned);
         rest.into_iter().chain(lines).collect()

@@ -4,7 +4,7 @@ use super::Client;
 use crate::document::{CurveId, Document};
 use crate::editor::reply::Refusal;
 use crate::geometry::Progress;
-use crate::io::{Export, ExportChoice};
+use crate::io::{Export, ExportChoice, LossReport};
 use crate::operations::{lowered, told_of_lowered};
 
 /// What an export would write and lose.
@@ -16,6 +16,8 @@ pub struct ExportForecast {
     pub bytes: usize,
     /// What becomes of curves of other degrees, and what the format cannot hold: a line each.
     pub losses: Vec<String>,
+    /// What changes by rounding alone: a line each.
+    pub rounding: Vec<String>,
 }
 
 /// A request to foresee an export.
@@ -36,6 +38,8 @@ pub(super) struct Exported {
     pub(super) counts: [usize; 2],
     /// What becomes of curves of other degrees.
     pub(super) told: Vec<String>,
+    /// What changes by rounding alone.
+    pub(super) rounding: LossReport,
 }
 
 /// Write what is chosen of a document.
@@ -65,12 +69,14 @@ pub(super) fn exported(
     export.losses.add_matches(document, |curve| {
         chosen_names(&lower).any(|name| name == curve.name)
     });
+    let rounding = export.losses.take_rounding(&lower);
     let left_out = export.losses.left_out();
     let counts = [0, 1].map(|kind| all[kind] - left_out[kind].min(all[kind]));
     Ok(Exported {
         export,
         counts,
         told,
+        rounding,
     })
 }
 
@@ -90,12 +96,13 @@ impl ExportRequest {
             return None;
         }
         Some(exported.map(|it| {
-            let losses = it.export.losses.to_string();
+            let [losses, rounding] = [&it.export.losses, &it.rounding].map(|it| it.to_string());
             let losses = losses.lines().map(str::to_owned);
             ExportForecast {
                 counts: it.counts,
                 bytes: it.export.bytes.len(),
                 losses: it.told.into_iter().chain(losses).collect(),
+                rounding: rounding.lines().map(str::to_owned).collect(),
             }
         }))
     }

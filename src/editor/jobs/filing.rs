@@ -626,6 +626,7 @@ fn export(
         export,
         counts: [curves, references],
         told,
+        ..
     } = exported(choice, document, selected, &Progress::default())?;
     let mut text = format!("{} exported to {shown}", counted_items(curves, references));
     let hidden = document.curves().filter(|(_, curve)| !curve.visible);
