@@ -94,6 +94,15 @@ impl Deviation {
         means.collect()
     }
 
+    /// How many whiskers lie past an end of the other curve, and the longest of the others; `None` if none does. So a
+    /// scan that reaches farther than a curve tells how far it is from what there is.
+    pub fn past_ends(&self) -> Option<(usize, f64)> {
+        let past = self.whiskers().filter(|it| it.past_end).count();
+        let others = self.whiskers().filter(|it| !it.past_end);
+        let longest = others.map(Whisker::distance).fold(0.0, f64::max);
+        (past > 0).then_some((past, longest))
+    }
+
     /// Write the whiskers as a table with tabs, a line each, those of the first side first: the side (1 or 2), the place
     /// there (u, or the number of a point) and on the other side, the distance, and both points.
     pub fn table(&self) -> String {
@@ -176,6 +185,24 @@ mod tests {
             .each_ref()
             .map(|side| side.as_ref().map_or(0, |side| side.whiskers.len()));
         assert_eq!(sides, expected);
+    }
+
+    #[test]
+    fn whiskers_past_the_ends_are_told_apart() {
+        let long = [(-1.0, 0.5), (4.0, 0.5)];
+        let long = FloatPolygon::planar(1, &long).expect("a polygon");
+        let long = Item::Curve(Arc::new(Curve::new("long".to_owned(), long)));
+        let measured = Deviation::measure([&long, &line(0.0)], &Progress::default());
+        let measured = measured.expect("curves have points").expect("two curves");
+        // The short one goes from 0.5 to 1.5: four of five parts lie past its ends.
+        let (past, longest) = measured.past_ends().expect("some are past the ends");
+        let of_long = measured.sides[0].as_ref().map_or(0, |it| it.whiskers.len());
+        let share = past as f64 / of_long as f64;
+        assert!((share - 0.8).abs() <= 2.0 / of_long as f64, "{share}");
+        assert!((longest - 0.5).abs() <= 1e-12, "{longest}");
+        let measured = Deviation::measure([&line(1.0), &line(0.0)], &Progress::default());
+        let measured = measured.expect("curves have points").expect("two curves");
+        assert_eq!(measured.past_ends(), None);
     }
 
     #[test]

@@ -79,6 +79,7 @@ pub(super) fn run(compared: [&Compared; 2], limit: Option<f64>) -> anyhow::Resul
         there.map(|it| Side::of(it, [a, b])),
         back.map(|it| Side::of(it, [b, a])),
     ];
+    let (past, within) = deviation.past_ends().unwrap_or((0, largest));
     output::print(&json_layout::to_text(&Report {
         a: document.name(a.1).unwrap_or_default(),
         b: other.name(b.1).unwrap_or_default(),
@@ -91,6 +92,8 @@ pub(super) fn run(compared: [&Compared; 2], limit: Option<f64>) -> anyhow::Resul
         limit,
         beyond: limit.map(beyond),
         whiskers: deviation.whiskers().count(),
+        past_ends: past,
+        largest_within: within,
     }))?;
     Ok(match limit {
         Some(limit) if largest > limit => ExitCode::FAILURE,
@@ -135,6 +138,9 @@ struct Report<'a> {
     /// How many of the whiskers are longer than the limit; null without one.
     beyond: Option<usize>,
     whiskers: usize,
+    /// How many of them lie past an end of the other curve, and the longest of the others.
+    past_ends: usize,
+    largest_within: f64,
 }
 
 #[derive(Serialize)]
@@ -158,6 +164,7 @@ impl Side {
             nearest_at,
             places,
             side: of_curve,
+            ..
         } = side.largest;
         let [point, nearest] = places.map(|it| it.to_array());
         Self {

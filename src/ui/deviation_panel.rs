@@ -80,11 +80,20 @@ fn figures_ui(ui: &mut Ui, editor: &Editor, compared: CurveId, deviation: &Devia
     };
     let length = |value: f64| document_unit::length(ui.ctx(), figures::significant(value, 4));
     let [largest, mean, rms] = [found.distance(), deviation.mean(), deviation.rms()].map(length);
+    let past_ends = deviation.past_ends().map(|(past, others)| {
+        let others = length(others);
+        format!("{past}, the others up to {others}")
+    });
     let [own, other] = deviation.sides.each_ref().map(|it| {
         let largest = it.as_ref().map(|it| length(it.largest.distance()));
         largest.unwrap_or("–".to_owned())
     });
     widgets::figure_row(ui, "Largest distance", &largest);
+    if let Some(others) = past_ends {
+        widgets::figure_row(ui, "Past an end", &others).on_hover_text(
+            "Whiskers past an end of the other curve, and the longest of the others",
+        );
+    }
     widgets::figure_row(ui, "Mean, RMS", &format!("{mean}, {rms}"));
     by_side_ui(ui, deviation);
     widgets::figure_row(ui, "From this one", &own)

@@ -38,6 +38,9 @@ const ROUNDING: f64 = 1e-13;
 /// A curve is closed whose ends are nearer than this share of its size: readers leave such gaps.
 const CLOSED: f64 = 1e-9;
 
+/// A place is square to an end if the cosine is at most this.
+const SQUARE: f64 = 1e-6;
+
 /// The most equal samples that may hide a maximum between them: more are a plateau.
 const LONGEST_RUN: usize = 3;
 
@@ -73,6 +76,9 @@ pub struct Whisker {
     pub places: [DVec3; 2],
     /// On which side of the other curve the place is, in the plane z = 0.
     pub side: Option<CurveSide>,
+    /// Whether the place lies past an end of the other curve, which is open: that is the nearest point, and not square
+    /// to the curve.
+    pub past_end: bool,
 }
 
 /// A side of a curve, seen along it.
@@ -287,6 +293,7 @@ impl<'a> Side<'a> {
             at,
             nearest_at,
             places: [point, jet.point],
+            past_end: self.is_past_end(nearest_at, jet.first, point - jet.point),
             side: is_flat.then_some(match self.area {
                 None if turn > 0.0 => CurveSide::Left,
                 None => CurveSide::Right,
@@ -294,6 +301,14 @@ impl<'a> Side<'a> {
                 Some(_) => CurveSide::Outside,
             }),
         }
+    }
+
+    /// Whether a way from the nearest point leads past an end of the open target, and not square to its derivative.
+    fn is_past_end(&self, nearest_at: f64, derivative: DVec3, way: DVec3) -> bool {
+        let along = way.dot(derivative);
+        let square = SQUARE * way.length() * derivative.length();
+        let is_end = nearest_at == self.other.0.pieces() as f64;
+        self.area.is_none() && (nearest_at == 0.0 && along < -square || is_end && along > square)
     }
 
     fn sample(&self, curve: Pieces, at: f64) -> Sample {
