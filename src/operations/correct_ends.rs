@@ -486,7 +486,8 @@ fn nearest(
     Ok(match is_better {
         true => Correction {
             remark: Some(
-                "The curve moves least, not its vertices: those would make another curve of it".to_owned(),
+                "The curve moves least, not its vertices: those would make another curve of it"
+                    .to_owned(),
             ),
             ..by_curve
         },

@@ -25,6 +25,7 @@ const TRIALS: usize = 1000;
 
 /// The objective of the joint correction: first differences, and the moves themselves by this.
 const FIDELITY: f64 = 1e-3;
+const TURNED_FIDELITY: f64 = 0.1;
 
 fn residual(polygon: &FloatPolygon, targets: &[(End, EndTarget)], size: f64) -> f64 {
     let ends = targets.iter();
@@ -232,7 +233,7 @@ fn dense_moves(
         point_rows(polygon, targets, in_space),
         direction_rows(polygon, targets, in_space),
     );
-    let moves = dense_solution(polygon, &points, in_space);
+    let moves = dense_solution(polygon, &points, in_space, turned);
     let moved = polygon.vertices().iter().zip(moves).enumerate();
     let moved: Vec<(usize, DVec3)> = moved
         .map(|(index, (vertex, movement))| (index, *vertex + movement))
@@ -249,7 +250,12 @@ fn dense_moves(
     let all: Vec<Row> = rows.iter().cloned().chain(lengths).collect();
     let unknowns = polygon.vertices().len() * if in_space { 3 } else { 2 };
     let turns = turned && all.len() <= unknowns;
-    dense_solution(polygon, if turns { &all } else { &rows }, in_space)
+    dense_solution(polygon, if turns { &all } else { &rows }, in_space, turned)
+}
+
+/// The weight μ of the moves.
+fn fidelity(turned: bool) -> f64 {
+    if turned { TURNED_FIDELITY } else { FIDELITY }
 }
 
 /// Weights of the vertices' moves along an axis, and their sum.
@@ -288,7 +294,13 @@ fn direction_rows(
 }
 
 /// The least moves under rows, from one dense system of moves and multipliers.
-fn dense_solution(polygon: &FloatPolygon, rows: &[Row], in_space: bool) -> Vec<DVec3> {
+fn dense_solution(
+    polygon: &FloatPolygon,
+    rows: &[Row],
+    in_space: bool,
+    turned: bool,
+) -> Vec<DVec3> {
+    let fidelity = fidelity(turned);
     let count = polygon.vertices().len();
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let dimensions = if in_space { 3 } else { 2 };
@@ -297,7 +309,7 @@ fn dense_solution(polygon: &FloatPolygon, rows: &[Row], in_space: bool) -> Vec<D
     for dimension in 0..dimensions {
         for index in 0..count {
             let here = dimension * count + index;
-            matrix[(here, here)] += FIDELITY;
+            matrix[(here, here)] += fidelity;
             if index + 1 < count {
                 matrix[(here, here)] += 1.0;
                 matrix[(here + 1, here + 1)] += 1.0;
@@ -611,6 +623,7 @@ fn unexplained(
     (level, turned): (usize, bool),
     order: usize,
 ) -> f64 {
+    let fidelity = fidelity(turned);
     let dimensions = if before.is_planar() { 2 } else { 3 };
     let count = before.vertices().len();
     let unknowns = count * dimensions;
@@ -630,7 +643,7 @@ fn unexplained(
     for dimension in 0..dimensions {
         let value = |index: usize| moves[index][dimension];
         for index in 0..count {
-            gradient[index * dimensions + dimension] += FIDELITY * value(index);
+            gradient[index * dimensions + dimension] += fidelity * value(index);
         }
         for first in 0..count.saturating_sub(order) {
             let difference: f64 = (0..=order).map(|k| binomial[k] * value(first + k)).sum();

@@ -18,6 +18,9 @@ use crate::geometry::vector;
 /// The weight μ of the moves themselves; a correction fades over about 1/√μ vertices.
 const FIDELITY: f64 = 1e-3;
 
+/// The weight μ for turned ends: what lies far from them stays.
+const TURNED_FIDELITY: f64 = 0.1;
+
 /// The most steps towards curvatures and slopes that a frame has time for.
 const HASTY_STEPS: usize = 8;
 
@@ -79,7 +82,7 @@ fn unsolved(conditions: usize, freedoms: usize) -> String {
 /// The disturbance that a correction minimises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Disturbance {
-    /// The k-th differences of the vertices' moves, k = 1, 2 or 3: 1 moves the vertices least, 3
+    /// The k-th differences of the vertices' moves, k = 0 to 3: 0 moves the fewest vertices, 1 moves them least, 3
     /// bends the curve most evenly.
     Differences(usize),
     /// The same, with derivatives at the ends that turn to their directions and keep their lengths, as those of rotated
@@ -301,7 +304,12 @@ impl<'a> Correction<'a> {
     ) -> Option<Descent> {
         let objective = match self.disturbance {
             Disturbance::Curve => Objective::CurveMoves { bending: BENDING },
-            _ => Objective::Disturbance {
+            Disturbance::Turned(_) => Objective::Disturbance {
+                order,
+                fidelity: TURNED_FIDELITY,
+                curve: [0.0; 2],
+            },
+            Disturbance::Differences(_) | Disturbance::Harmony => Objective::Disturbance {
                 order,
                 fidelity: FIDELITY,
                 curve: [0.0; 2],

@@ -52,7 +52,7 @@ pub fn correct_near_end(
     let held = |index: &usize| far.contains(index) || locked.contains(index);
     let held_here = near.clone().filter(held).map(|index| index - near.start);
     let held_here: Vec<usize> = held_here.collect();
-    let (targets, least) = ([(end, target)], Disturbance::Differences(1));
+    let (targets, least) = ([(end, target)], Disturbance::Turned(1));
     let corrected = correct(&part, &targets, least, &held_here, &Progress::default())?.polygon;
     let moves = near.clone().filter(|index| !held(index));
     let moves: Vec<(usize, DVec3)> = moves
