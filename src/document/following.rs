@@ -3,6 +3,8 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use super::curve::{Curve, CurveId};
 use super::document::Document;
 use super::end_match::EndMatch;
@@ -13,7 +15,7 @@ use crate::geometry::fairing::joint_correction::{
 };
 use crate::geometry::fairing::kept_jets::with_kept_jets;
 use crate::geometry::fairing::near_end::{correct_near_end, has_ends_apart};
-use crate::geometry::{Continuity, End, FloatPolygon, Progress};
+use crate::geometry::{Continuity, End, FloatPolygon, Progress, Similarity};
 
 /// The largest difference that counts as rounding, in units of the end's size.
 const ROUNDING: f64 = 1e-12;
@@ -181,6 +183,7 @@ impl Document {
                 } else {
                     correct_jointly
                 };
+                self.carry(curve, before);
                 let before = before.curve(curve).map(|curve| &curve.polygon);
                 self.correct(curve, before, correct);
             }
@@ -224,6 +227,51 @@ impl Document {
         let curves = self.curve(id).zip(before.curve(id));
         self.has_same_shape(id, before)
             && curves.is_some_and(|(now, then)| corrected(now) == corrected(then))
+    }
+
+    /// Move a curve along as a whole if both its ends follow what moved so, and nothing else changed.
+    fn carry(&mut self, id: CurveId, before: &Self) {
+        let carried = self.carried(id, before);
+        if let Some((index, polygon)) = self.position(id).zip(carried) {
+            let curve = Curve {
+                polygon,
+                ..Curve::clone(&self.curves[index].1)
+            };
+            self.curves[index].1 = Arc::new(curve);
+        }
+    }
+
+    /// The polygon of a curve moved along with the sources of both its ends; `None` if they do not move alike.
+    fn carried(&self, id: CurveId, before: &Self) -> Option<FloatPolygon> {
+        let curve = self.curve(id)?;
+        let is_free = curve.visible && !curve.locked && curve.symmetry.is_none();
+        if !is_free || !curve.locked_vertices.is_empty() || !self.is_as_correctable(id, before) {
+            return None;
+        }
+        let motion = |end: End| {
+            let matched = self.match_of(id, end)?;
+            if before.match_of(id, end) != Some(matched) {
+                return None;
+            }
+            let [now, then] = [self, before].map(|it| it.shape(matched.source));
+            Similarity::between(then?, now?)
+        };
+        let [start, finish] = [motion(End::Start)?, motion(End::Finish)?];
+        let size = curve.polygon.size();
+        let vertices = curve.polygon.vertices().iter();
+        let images: Vec<DVec3> = vertices
+            .clone()
+            .map(|vertex| start.image(*vertex))
+            .collect();
+        let is_alike = |(vertex, image): (&DVec3, &DVec3)| {
+            finish.image(*vertex).distance(*image) <= MET * size
+        };
+        if !vertices.zip(&images).all(is_alike) {
+            return None;
+        }
+        let mut polygon = curve.polygon.clone();
+        polygon.move_vertices(images.into_iter().enumerate()).ok()?;
+        Some(polygon)
     }
 
     /// Give the matched ends of a curve their targets, and bring them there.
@@ -282,7 +330,12 @@ fn met(
             };
             return ends.try_fold(polygon.clone(), one);
         }
-        let least = Disturbance::Turned(1);
+        // Where a vertex of its own is dragged, the others stay as they are as far as they can.
+        let is_dragged = before.is_some_and(|before| before != polygon && meet(before, matched));
+        let least = match is_dragged {
+            true => Disturbance::Differences(0),
+            false => Disturbance::Turned(1),
+        };
         let targets = with_kept_ends(polygon, matched);
         let corrected = correct(polygon, &targets, least, &locked, &Progress::default());
         corrected.ok().map(|corrected| corrected.polygon)
@@ -316,16 +369,18 @@ fn with_kept_matches(
     matched: &[(End, EndTarget)],
     locked: &[usize],
 ) -> Option<FloatPolygon> {
-    let meet = |polygon: &FloatPolygon| {
-        let mut ends = matched.iter();
-        ends.all(|(end, target)| is_met(polygon, *end, target, MET))
-    };
     let levels = matched.iter().map(|(end, target)| (*end, level(target)));
     let levels: Vec<_> = levels.collect();
     Some(before)
-        .filter(|before| meet(before))
+        .filter(|before| meet(before, matched))
         .and_then(|before| with_kept_jets(polygon, before, &levels, locked))
-        .filter(meet)
+        .filter(|kept| meet(kept, matched))
+}
+
+/// Whether all matched ends of a polygon meet their targets.
+fn meet(polygon: &FloatPolygon, matched: &[(End, EndTarget)]) -> bool {
+    let mut ends = matched.iter();
+    ends.all(|(end, target)| is_met(polygon, *end, target, MET))
 }
 
 /// The level of continuity that a target asks for.

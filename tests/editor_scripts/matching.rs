@@ -213,6 +213,84 @@ fn a_match_is_flipped_from_the_curve_before_it() {
     script.undo_all();
 }
 
+/// Let both ends of the second curve follow points of the first.
+fn match_both(script: &mut Script, ids: [CurveId; 2], level: Continuity) {
+    let places = [(End::Start, 1.0), (End::Finish, 2.0)];
+    let matches = places.map(|(end, u)| {
+        Edit::SetMatch(EndMatch {
+            curve: ids[1],
+            end,
+            source: ids[0],
+            place: MatchPlace::Parameter(u),
+            continuity: level,
+            reversed: false,
+        })
+    });
+    let reply = script.editor.apply("Match", matches.to_vec());
+    reply.expect("a match");
+}
+
+/// Move all vertices of a curve.
+fn move_all(script: &mut Script, id: CurveId, to: impl Fn(DVec3) -> DVec3) {
+    let vertices = curve(script, id).polygon;
+    let moves = vertices.vertices().iter().map(|it| to(*it)).enumerate();
+    let edit = Edit::MoveVertices {
+        curve: id,
+        moves: moves.collect(),
+    };
+    script.editor.apply("Move", vec![edit]).expect("a move");
+}
+
+#[test]
+fn a_curve_that_follows_with_both_ends_moves_along_as_a_whole() {
+    for level in Continuity::ALL {
+        let (mut script, ids) = script();
+        match_both(&mut script, ids, level);
+        let matched = curve(&script, ids[1]).polygon;
+        let turn = DVec2::from_angle(0.6);
+        let moved = |it: DVec3| (1.5 * turn.rotate(it.truncate())).extend(0.0) + 90.0 * DVec3::Y;
+        move_all(&mut script, ids[0], moved);
+        let along = curve(&script, ids[1]).polygon;
+        for (before, now) in matched.vertices().iter().zip(along.vertices()) {
+            let off = now.distance(moved(*before));
+            assert!(off <= MET * 90.0, "{level:?}: {off:e}");
+        }
+        assert!(missing(&script, &first_match(&script)) <= MET);
+        script.command(Command::Undo);
+        assert_eq!(curve(&script, ids[1]).polygon, matched);
+        // A change of a part of the source takes the ends alone along.
+        move_all(&mut script, ids[0], |it| {
+            it + DVec3::new(0.0, 0.01 * it.x * it.x, 0.0)
+        });
+        let followed = curve(&script, ids[1]).polygon;
+        assert!(followed != matched && missing(&script, &first_match(&script)) <= MET);
+        script.undo_all();
+    }
+}
+
+#[test]
+fn a_vertex_that_cannot_follow_the_pointer_does_not_push_the_others_away() {
+    let (mut script, ids) = script();
+    match_both(&mut script, ids, Continuity::G2);
+    let before = curve(&script, ids[1]).polygon;
+    let by = 0.4;
+    for vertex in 1..before.vertices().len() - 1 {
+        let moved = Edit::MoveVertices {
+            curve: ids[1],
+            moves: vec![(vertex, before.vertex(vertex) + by * DVec3::Y)],
+        };
+        script.editor.apply("Move", vec![moved]).expect("a move");
+        let now = curve(&script, ids[1]).polygon;
+        let moves = before.vertices().iter().zip(now.vertices());
+        let farthest = moves
+            .map(|(from, to)| from.distance(*to))
+            .fold(0.0, f64::max);
+        assert!(farthest <= 2.6 * by * (1.0 + MET), "{vertex}: {farthest}");
+        assert!(now.vertex(vertex).y >= before.vertex(vertex).y, "{vertex}");
+        script.command(Command::Undo);
+    }
+}
+
 #[test]
 fn a_live_match_follows_a_drag_of_the_other_curve_within_its_step() {
     for level in Continuity::ALL {
