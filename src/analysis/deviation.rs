@@ -103,6 +103,31 @@ impl Deviation {
         (past > 0).then_some((past, longest))
     }
 
+    /// The deviation without the points past an end of the curve; `None` between two curves, or where that are all of
+    /// them or none.
+    pub fn within_ends(&self) -> Option<Self> {
+        let points = match self.sides.each_ref() {
+            [Some(points), None] | [None, Some(points)] => points,
+            _ => return None,
+        };
+        let own = points.whiskers.iter().filter(|it| !it.past_end).copied();
+        let own: Vec<Whisker> = own.collect();
+        let longest = |a: &&Whisker, b: &&Whisker| a.distance().total_cmp(&b.distance());
+        let largest = *own.iter().max_by(longest)?;
+        let count = own.len() as f64;
+        let mean = |power: i32| own.iter().map(|it| it.distance().powi(power)).sum::<f64>() / count;
+        let within = SideDeviation {
+            largest,
+            mean: mean(1),
+            rms: mean(2).sqrt(),
+            extent: count,
+            whiskers: own.clone(),
+        };
+        let sides = self.sides.each_ref();
+        let sides = sides.map(|side| side.as_ref().map(|_| within.clone()));
+        (own.len() < points.whiskers.len()).then_some(Self { sides })
+    }
+
     /// Write the whiskers as a table with tabs, a line each, those of the first side first: the side (1 or 2), the place
     /// there (u, or the number of a point) and on the other side, the distance, and both points.
     pub fn table(&self) -> String {
@@ -151,8 +176,9 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::document::Curve;
+    use crate::document::{Curve, Reference};
     use crate::geometry::FloatPolygon;
+    use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 
     fn line(y: f64) -> Item {
         let points = [(0.0, y), (1.0, y), (2.0, y)];
@@ -203,6 +229,31 @@ mod tests {
         let measured = Deviation::measure([&line(1.0), &line(0.0)], &Progress::default());
         let measured = measured.expect("curves have points").expect("two curves");
         assert_eq!(measured.past_ends(), None);
+    }
+
+    #[test]
+    fn points_past_the_ends_can_be_left_out() {
+        let points = [(0.2, 9.0), (0.6, 1.0), (1.0, 3.0), (1.4, 2.0), (7.0, 1.0)];
+        let points = points.map(|(x, y)| DVec3::new(x, y, 0.0)).to_vec();
+        let points = PointList::new(points).expect("points");
+        let points = ReferenceCurve::of(ReferenceForm::Points(points)).expect("a reference");
+        let points = Item::Reference(Arc::new(Reference::new("points", points)));
+        for items in [[&points, &line(0.0)], [&line(0.0), &points]] {
+            let measured = Deviation::measure(items, &Progress::default());
+            let measured = measured.expect("they have points").expect("a curve");
+            assert_eq!(measured.past_ends(), Some((2, 3.0)));
+            let within = measured.within_ends().expect("some are within");
+            let largest = within.largest().map(|(_, it)| it.distance());
+            assert_eq!(largest, Some(3.0));
+            assert_eq!(within.whiskers().count(), 3);
+            assert!((within.mean() - 2.0).abs() <= 1e-15);
+            let rms = (14.0_f64 / 3.0).sqrt();
+            assert!((within.rms() - rms).abs() <= 1e-15 * rms);
+            assert_eq!((within.past_ends(), within.within_ends()), (None, None));
+        }
+        let lines = Deviation::measure([&line(0.0), &line(1.0)], &Progress::default());
+        let lines = lines.expect("curves have points").expect("two curves");
+        assert_eq!(lines.within_ends(), None);
     }
 
     #[test]

@@ -29,6 +29,7 @@ pub fn deviation_ui(ui: &mut Ui, editor: &mut Editor) {
     match editor.sight().deviation() {
         Some(deviation) => {
             figures_ui(ui, editor, compared, deviation);
+            past_ends_ui(ui, editor, &mut whiskers);
             let scale = editor.sight().deviation_scale();
             widgets::form_row(ui, "Whiskers", |ui| {
                 whisker_fields_ui(ui, scale, &mut whiskers);
@@ -80,20 +81,11 @@ fn figures_ui(ui: &mut Ui, editor: &Editor, compared: CurveId, deviation: &Devia
     };
     let length = |value: f64| document_unit::length(ui.ctx(), figures::significant(value, 4));
     let [largest, mean, rms] = [found.distance(), deviation.mean(), deviation.rms()].map(length);
-    let past_ends = deviation.past_ends().map(|(past, others)| {
-        let others = length(others);
-        format!("{past}, the others up to {others}")
-    });
     let [own, other] = deviation.sides.each_ref().map(|it| {
         let largest = it.as_ref().map(|it| length(it.largest.distance()));
         largest.unwrap_or("–".to_owned())
     });
     widgets::figure_row(ui, "Largest distance", &largest);
-    if let Some(others) = past_ends {
-        widgets::figure_row(ui, "Past an end", &others).on_hover_text(
-            "Whiskers past an end of the other curve, and the longest of the others",
-        );
-    }
     widgets::figure_row(ui, "Mean, RMS", &format!("{mean}, {rms}"));
     by_side_ui(ui, deviation);
     widgets::figure_row(ui, "From this one", &own)
@@ -106,6 +98,24 @@ fn figures_ui(ui: &mut Ui, editor: &Editor, compared: CurveId, deviation: &Devia
     let of_curve = found.side.map(|it| format!(", {}", it.name()));
     let place = format!("{own}, {other}{}", of_curve.unwrap_or_default());
     widgets::figure_row(ui, "Largest at", &place);
+}
+
+/// How many whiskers lie past an end, and whether they are left out.
+fn past_ends_ui(ui: &mut Ui, editor: &Editor, whiskers: &mut Whiskers) {
+    let Some(whole) = editor.sight().whole_deviation() else {
+        return;
+    };
+    let Some((past, others)) = whole.past_ends() else {
+        return;
+    };
+    let others = document_unit::length(ui.ctx(), figures::significant(others, 4));
+    let found = format!("{past}, the others up to {others}");
+    widgets::figure_row(ui, "Past an end", &found)
+        .on_hover_text("Whiskers past an end of the other curve, and the longest of the others");
+    if whole.within_ends().is_some() {
+        ui.checkbox(&mut whiskers.within_ends, "Leave them out")
+            .on_hover_text("Count only points beside the curve, not those past its ends");
+    }
 }
 
 /// The mean distance on each side, and its share.

@@ -6,7 +6,7 @@ use batten::editor::{
     ReferenceChange, ToolKind, Transformation,
 };
 use batten::geometry::references::{
-    AnalyticForm, Placement, ReferenceCurve, ReferenceError, ReferenceForm, find,
+    AnalyticForm, Placement, PointList, ReferenceCurve, ReferenceError, ReferenceForm, find,
 };
 use batten::geometry::{Continuity, End, ParametricCurve, figure};
 use glam::{DQuat, DVec2, DVec3};
@@ -671,6 +671,46 @@ fn vertices_snap_to_its_ends_its_points_and_the_curve() {
     let radius = start.length();
     let off = (vertex(&script).length() - radius).abs();
     assert!(off <= 1e-9 * radius, "{off}");
+}
+
+#[test]
+fn points_past_an_end_are_left_out_of_the_deviation_on_demand() {
+    let mut script = Script::example("arc");
+    let arc = script.curve();
+    let polygon = script.polygon();
+    let end = polygon.end_jet(End::Finish);
+    let onward = end.tangent().expect("a direction");
+    // One point beside the curve, one past its end.
+    let beside = polygon.point(0.5 * polygon.segments() as f64) + 0.25 * DVec3::Z;
+    let points = PointList::new(vec![beside, end.point + 4.0 * onward]).expect("points");
+    let points = ReferenceCurve::of(ReferenceForm::Points(points)).expect("a reference");
+    let edit = Edit::AddReference(Box::new(Reference::new("scan", points)));
+    script.editor.apply("Add", vec![edit]).expect("an edit");
+    let scan = script.editor.document().all_ids().last().expect("a scan");
+    script.editor.activate(arc);
+    script.command(Command::Compare(Some(scan)));
+    let mut largest = |within_ends: bool| {
+        script.editor.view_mut().whiskers.within_ends = within_ends;
+        script.editor.refresh();
+        let sight = script.editor.sight();
+        let whole = sight.whole_deviation().expect("a deviation");
+        assert_eq!(whole.past_ends().map(|(past, _)| past), Some(1));
+        let shown = sight.deviation().expect("a deviation");
+        let largest = shown.largest().expect("a distance").1.distance();
+        let marks = script.scene().marks.clone();
+        let of = |mark: &Mark| match mark {
+            Mark::Whiskers { lines, .. } => lines.len(),
+            _ => 0,
+        };
+        (largest, marks.iter().map(of).sum::<usize>())
+    };
+    let [all, within] = [false, true].map(&mut largest);
+    assert!((all.0 - 4.0).abs() <= 1e-9 && all.1 == 2, "{all:?}");
+    assert!(
+        (within.0 - 0.25).abs() <= 1e-9 && within.1 == 1,
+        "{within:?}"
+    );
+    assert_eq!(largest(false), all);
 }
 
 #[test]

@@ -25,10 +25,22 @@ impl View {
         })
     }
 
+    /// Leave the points past the ends out of the deviation, if that is asked for.
+    pub(super) fn leave_past_ends(&mut self) {
+        let measured = self.comparing.deviation();
+        let measured = measured.filter(|_| self.whiskers.within_ends);
+        self.within_ends = measured.and_then(Deviation::within_ends);
+    }
+
+    /// The deviation that is shown.
+    fn deviation(&self) -> Option<&Deviation> {
+        self.within_ends.as_ref().or(self.comparing.deviation())
+    }
+
     /// Give the whiskers of the deviation a scale that suits them, unless they have one that still does. While the hand
     /// holds something they keep theirs.
     pub(super) fn suit_whiskers(&mut self, is_holding: bool) {
-        let Some(deviation) = self.comparing.deviation() else {
+        let Some(deviation) = self.deviation() else {
             self.suited_scale = None;
             return;
         };
@@ -49,8 +61,14 @@ impl<'a> Sight<'a> {
     }
 
     /// The deviation of the active curve or reference from what it is compared with; `None` until it is measured, and
-    /// between two lists of points. While one of them is changed it is that of the last state that was measured.
+    /// between two lists of points. While one of them is changed it is that of the last state that was measured. Without
+    /// the points past an end if they are left out.
     pub fn deviation(self) -> Option<&'a Deviation> {
+        self.view.deviation()
+    }
+
+    /// The deviation with the points past an end.
+    pub fn whole_deviation(self) -> Option<&'a Deviation> {
         self.view.comparing.deviation()
     }
 

@@ -22,6 +22,8 @@ pub struct Whiskers {
     pub scale: Option<f64>,
     /// The distance between two curves beyond which they are marked and counted.
     pub limit: Option<f64>,
+    /// Whether points past an end of the curve are left out of its deviation.
+    pub within_ends: bool,
 }
 
 impl Whiskers {
@@ -60,6 +62,7 @@ impl Default for Whiskers {
             shown: true,
             scale: None,
             limit: None,
+            within_ends: false,
         }
     }
 }
