@@ -103,29 +103,21 @@ impl Deviation {
         (past > 0).then_some((past, longest))
     }
 
-    /// The deviation without the points past an end of the curve; `None` between two curves, or where that are all of
-    /// them or none.
+    /// The deviation without the points past an end of the curve; `None` between two curves, or if all of the points lie
+    /// there or none.
     pub fn within_ends(&self) -> Option<Self> {
-        let points = match self.sides.each_ref() {
-            [Some(points), None] | [None, Some(points)] => points,
+        let within = |points: &SideDeviation| {
+            let own = points.whiskers.iter().filter(|it| !it.past_end).copied();
+            let own: Vec<Whisker> = own.collect();
+            let is_less = own.len() < points.whiskers.len();
+            SideDeviation::of_whiskers(own).filter(|_| is_less)
+        };
+        let sides = match &self.sides {
+            [Some(points), None] => [Some(within(points)?), None],
+            [None, Some(points)] => [None, Some(within(points)?)],
             _ => return None,
         };
-        let own = points.whiskers.iter().filter(|it| !it.past_end).copied();
-        let own: Vec<Whisker> = own.collect();
-        let longest = |a: &&Whisker, b: &&Whisker| a.distance().total_cmp(&b.distance());
-        let largest = *own.iter().max_by(longest)?;
-        let count = own.len() as f64;
-        let mean = |power: i32| own.iter().map(|it| it.distance().powi(power)).sum::<f64>() / count;
-        let within = SideDeviation {
-            largest,
-            mean: mean(1),
-            rms: mean(2).sqrt(),
-            extent: count,
-            whiskers: own.clone(),
-        };
-        let sides = self.sides.each_ref();
-        let sides = sides.map(|side| side.as_ref().map(|_| within.clone()));
-        (own.len() < points.whiskers.len()).then_some(Self { sides })
+        Some(Self { sides })
     }
 
     /// Write the whiskers as a table with tabs, a line each, those of the first side first: the side (1 or 2), the place

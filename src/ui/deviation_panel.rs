@@ -112,7 +112,7 @@ fn past_ends_ui(ui: &mut Ui, editor: &Editor, whiskers: &mut Whiskers) {
     let found = format!("{past}, the others up to {others}");
     widgets::figure_row(ui, "Past an end", &found)
         .on_hover_text("Whiskers past an end of the other curve, and the longest of the others");
-    if whole.within_ends().is_some() {
+    if editor.sight().has_points_within_ends() {
         ui.checkbox(&mut whiskers.within_ends, "Leave them out")
             .on_hover_text("Count only points beside the curve, not those past its ends");
     }

@@ -10,9 +10,17 @@ use crate::document::CurveId;
 /// Measure deviations beside the frame, of one pair at a time.
 #[derive(Debug, Default)]
 pub struct Comparing {
-    client: Client<Pair, Arc<Deviation>>,
+    client: Client<Pair, Arc<Compared>>,
     /// The last deviation of the same two items: while one of them is changed it stays until the next.
-    shown: Option<Arc<Deviation>>,
+    shown: Option<Arc<Compared>>,
+}
+
+/// A measured deviation.
+#[derive(Debug)]
+struct Compared {
+    deviation: Deviation,
+    /// The same without the points past an end of a curve.
+    within_ends: Option<Deviation>,
 }
 
 /// Two curves or references that are measured against each other.
@@ -41,8 +49,11 @@ impl Comparing {
         }
         self.client.advance(pair, Some(patience), |pair| {
             move |progress: &_| {
-                let deviation = Deviation::measure(pair.items.each_ref(), progress).ok()?;
-                deviation.map(Arc::new)
+                let deviation = Deviation::measure(pair.items.each_ref(), progress).ok()??;
+                Some(Arc::new(Compared {
+                    within_ends: deviation.within_ends(),
+                    deviation,
+                }))
             }
         });
         if self.client.progress().is_none() {
@@ -52,7 +63,12 @@ impl Comparing {
 
     /// The deviation of the pair; `None` until it is measured, and if it cannot be.
     pub fn deviation(&self) -> Option<&Deviation> {
-        self.shown.as_deref()
+        self.shown.as_ref().map(|shown| &shown.deviation)
+    }
+
+    /// The deviation without the points past an end of a curve; `None` also if there are no such points, or no others.
+    pub fn within_ends(&self) -> Option<&Deviation> {
+        self.shown.as_ref()?.within_ends.as_ref()
     }
 }
 

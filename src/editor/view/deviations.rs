@@ -25,16 +25,11 @@ impl View {
         })
     }
 
-    /// Leave the points past the ends out of the deviation, if that is asked for.
-    pub(super) fn leave_past_ends(&mut self) {
-        let measured = self.comparing.deviation();
-        let measured = measured.filter(|_| self.whiskers.within_ends);
-        self.within_ends = measured.and_then(Deviation::within_ends);
-    }
-
     /// The deviation that is shown.
     fn deviation(&self) -> Option<&Deviation> {
-        self.within_ends.as_ref().or(self.comparing.deviation())
+        let within = self.comparing.within_ends();
+        let within = within.filter(|_| self.whiskers.within_ends);
+        within.or(self.comparing.deviation())
     }
 
     /// Give the whiskers of the deviation a scale that suits them, unless they have one that still does. While the hand
@@ -70,6 +65,11 @@ impl<'a> Sight<'a> {
     /// The deviation with the points past an end.
     pub fn whole_deviation(self) -> Option<&'a Deviation> {
         self.view.comparing.deviation()
+    }
+
+    /// Whether points past an end can be left out of the deviation.
+    pub fn has_points_within_ends(self) -> bool {
+        self.view.comparing.within_ends().is_some()
     }
 
     /// The scale at which the whiskers of the deviation are drawn.

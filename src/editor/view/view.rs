@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
-use crate::analysis::{AnalysisCache, CurveAnalysis, Deviation, Item, Joints, ReferenceAnalysis};
+use crate::analysis::{AnalysisCache, CurveAnalysis, Item, Joints, ReferenceAnalysis};
 use crate::document::{CurveId, Document, PictureSource};
 use crate::editor::jobs::Client;
 use crate::editor::jobs::comparing::Comparing;
@@ -70,8 +70,6 @@ pub struct View {
     pub whiskers: Whiskers,
     /// The scale that was last made to suit the distances of the deviation; `None` without one.
     pub(super) suited_scale: Option<f64>,
-    /// The deviation without the points past an end, if they are left out.
-    pub(super) within_ends: Option<Deviation>,
     pub(in crate::editor) hovered: Hovered,
     /// The marks of panels in the frame before, for panels that come first.
     pub(in crate::editor) hovered_before: Hovered,
@@ -217,7 +215,6 @@ impl View {
             .update(shown.document(), &self.analyses, tolerance);
         let pair = self.compared_pair(shown);
         self.comparing.advance(pair, patience);
-        self.leave_past_ends();
         self.suit_whiskers(shown.is_holding);
     }
 

@@ -180,22 +180,25 @@ impl SideDeviation {
             }
             whiskers.push(side.whisker(index as f64, *point));
         }
+        Ok(Self::of_whiskers(whiskers))
+    }
+
+    /// Measure how far points are by a whisker of each; `None` without points.
+    pub fn of_whiskers(whiskers: Vec<Whisker>) -> Option<Self> {
         let longer = |best: Whisker, it: Whisker| match it.distance() > best.distance() {
             true => it,
             false => best,
         };
-        let Some(largest) = whiskers.iter().copied().reduce(longer) else {
-            return Ok(None);
-        };
-        let extent = points.len() as f64;
+        let largest = whiskers.iter().copied().reduce(longer)?;
+        let extent = whiskers.len() as f64;
         let distances = || whiskers.iter().map(Whisker::distance);
-        Ok(Some(Self {
+        Some(Self {
             largest,
             mean: distances().sum::<f64>() / extent,
             rms: (distances().map(|it| it * it).sum::<f64>() / extent).sqrt(),
             extent,
             whiskers,
-        }))
+        })
     }
 }
 
