@@ -15,7 +15,8 @@ use crate::geometry::fairing::joint_correction::{
 };
 use crate::geometry::fairing::kept_jets::with_kept_jets;
 use crate::geometry::fairing::near_end::{correct_near_end, has_ends_apart};
-use crate::geometry::{Continuity, End, FloatPolygon, Progress, Similarity};
+use crate::geometry::references::Placement;
+use crate::geometry::{Continuity, End, FloatPolygon, Progress};
 
 /// The largest difference that counts as rounding, in units of the end's size.
 const ROUNDING: f64 = 1e-12;
@@ -254,17 +255,17 @@ impl Document {
                 return None;
             }
             let [now, then] = [self, before].map(|it| it.shape(matched.source));
-            Similarity::between(then?, now?)
+            Placement::between(then?, now?)
         };
         let [start, finish] = [motion(End::Start)?, motion(End::Finish)?];
         let size = curve.polygon.size();
         let vertices = curve.polygon.vertices().iter();
         let images: Vec<DVec3> = vertices
             .clone()
-            .map(|vertex| start.image(*vertex))
+            .map(|vertex| start.point(*vertex))
             .collect();
         let is_alike = |(vertex, image): (&DVec3, &DVec3)| {
-            finish.image(*vertex).distance(*image) <= MET * size
+            finish.point(*vertex).distance(*image) <= MET * size
         };
         if !vertices.zip(&images).all(is_alike) {
             return None;
@@ -322,20 +323,20 @@ fn met(
         return None;
     }
     let locked: Vec<usize> = curve.locked_vertices.iter().collect();
+    // Where a vertex of its own is dragged, the others stay as they are as far as they can.
+    let is_dragged = before.is_some_and(|before| before != polygon && meet(before, matched));
+    let least = match is_dragged {
+        true => Disturbance::Differences(0),
+        false => Disturbance::Turned(1),
+    };
     let corrected = || {
         if has_ends_apart(polygon) {
             let mut ends = matched.iter();
             let one = |polygon: FloatPolygon, (end, target): &(End, EndTarget)| {
-                correct_near_end(&polygon, *end, target, &locked, correct).ok()
+                correct_near_end(&polygon, (*end, target), least, &locked, correct).ok()
             };
             return ends.try_fold(polygon.clone(), one);
         }
-        // Where a vertex of its own is dragged, the others stay as they are as far as they can.
-        let is_dragged = before.is_some_and(|before| before != polygon && meet(before, matched));
-        let least = match is_dragged {
-            true => Disturbance::Differences(0),
-            false => Disturbance::Turned(1),
-        };
         let targets = with_kept_ends(polygon, matched);
         let corrected = correct(polygon, &targets, least, &locked, &Progress::default());
         corrected.ok().map(|corrected| corrected.polygon)

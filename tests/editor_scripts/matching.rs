@@ -270,11 +270,30 @@ fn a_curve_that_follows_with_both_ends_moves_along_as_a_whole() {
 
 #[test]
 fn a_vertex_that_cannot_follow_the_pointer_does_not_push_the_others_away() {
+    // Ends of a long curve are corrected apart from each other.
+    for count in [8, 140] {
+        check_drags_beside_matched_ends(count);
+    }
+}
+
+fn check_drags_beside_matched_ends(count: usize) {
     let (mut script, ids) = script();
+    let wave = |index: usize| {
+        let x = 8.0 + 7.0 * index as f64 / (count - 1) as f64;
+        (x, x.sin())
+    };
+    let wave: Vec<(f64, f64)> = (0..count).map(wave).collect();
+    let edit = Edit::Add(Box::new(Curve::new("wave", polygon(5, &wave))));
+    script.editor.apply("Add", vec![edit]).expect("an edit");
+    let follower = script.editor.document().ids().last().expect("a curve");
+    let ids = [ids[0], follower];
     match_both(&mut script, ids, Continuity::G2);
     let before = curve(&script, ids[1]).polygon;
     let by = 0.4;
-    for vertex in 1..before.vertices().len() - 1 {
+    let beside = (1..7)
+        .chain(count - 7..count - 1)
+        .filter(|it| *it < count - 1);
+    for vertex in beside {
         let moved = Edit::MoveVertices {
             curve: ids[1],
             moves: vec![(vertex, before.vertex(vertex) + by * DVec3::Y)],

@@ -82,8 +82,8 @@ fn unsolved(conditions: usize, freedoms: usize) -> String {
 /// The disturbance that a correction minimises.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Disturbance {
-    /// The k-th differences of the vertices' moves, k = 0 to 3: 0 moves the fewest vertices, 1 moves them least, 3
-    /// bends the curve most evenly.
+    /// The k-th differences of the vertices' moves, k = 0 to 3: 0 leaves alone what an end does
+    /// not need, 1 moves the vertices least, 3 bends the curve most evenly.
     Differences(usize),
     /// The same, with derivatives at the ends that turn to their directions and keep their lengths, as those of rotated
     /// ends do: shorter ones, which move the vertices less, bend the curve sharply.

@@ -20,7 +20,7 @@ pub fn has_ends_apart(polygon: &FloatPolygon) -> bool {
 }
 
 /// Bring one end of an open curve that [has its ends apart](has_ends_apart) to a target by moving only
-/// the vertices near it, except the `locked` ones, as `correct` does: in the same time however long
+/// the vertices near it, except the `locked` ones, as `correct` does with the `least` disturbance: in the same time however long
 /// the curve is, and with conditions in the size of what is moved. All beyond keeps every bit, and
 /// the curve its smoothness.
 ///
@@ -28,8 +28,8 @@ pub fn has_ends_apart(polygon: &FloatPolygon) -> bool {
 /// As `correct`, which nothing cancels here.
 pub fn correct_near_end(
     polygon: &FloatPolygon,
-    end: End,
-    target: &EndTarget,
+    (end, target): (End, &EndTarget),
+    least: Disturbance,
     locked: &[usize],
     correct: Corrector,
 ) -> Result<FloatPolygon, CorrectionError> {
@@ -52,7 +52,7 @@ pub fn correct_near_end(
     let held = |index: &usize| far.contains(index) || locked.contains(index);
     let held_here = near.clone().filter(held).map(|index| index - near.start);
     let held_here: Vec<usize> = held_here.collect();
-    let (targets, least) = ([(end, target)], Disturbance::Turned(1));
+    let targets = [(end, target)];
     let corrected = correct(&part, &targets, least, &held_here, &Progress::default())?.polygon;
     let moves = near.clone().filter(|index| !held(index));
     let moves: Vec<(usize, DVec3)> = moves
