@@ -219,9 +219,13 @@ impl LossReport {
 
     /// Take out the digits that the curves of a document lose by rounding alone, as a report of their own.
     pub fn take_rounding(&mut self, document: &Document) -> Self {
-        let curves = document.curves();
-        let sizes = curves.map(|(_, it)| (it.name.as_str(), it.polygon.size()));
-        let sizes: HashMap<&str, f64> = sizes.collect();
+        // Of curves that share a name the smallest counts.
+        let mut sizes: HashMap<&str, f64> = HashMap::new();
+        for (_, curve) in document.curves() {
+            let size = curve.polygon.size();
+            let least = sizes.entry(curve.name.as_str()).or_insert(size);
+            *least = least.min(size);
+        }
         let is_rounding = |name: &str, loss: &Loss| match loss {
             Loss::Digits { curve, .. } => {
                 *curve <= ROUNDING * sizes.get(name).copied().unwrap_or_default()
