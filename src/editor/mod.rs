@@ -25,7 +25,7 @@ pub use commands::{
 pub use dispatch::MenuOf;
 pub use hand::{
     Arrangement, Button, Cursor, DrawSettings, DrawWay, EndFitAction, EndFitReport, EndNoise,
-    Entry, EntryError, Follow, Following, Hand, Input, Key, Leg, LegLocks, MatchReport,
+    Entry, EntryError, Follow, Following, Hand, Input, Key, Leg, LegLocks, MATCH_END, MatchReport,
     MenuRequest, MenuSubject, Modifiers, ToolKind, ToolRow, Transformation,
 };
 pub use jobs::edited_file::EditedFile;

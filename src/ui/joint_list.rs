@@ -12,7 +12,7 @@ use super::widgets::{self, IconButton};
 use super::{document_unit, figures};
 use crate::analysis::CurveJoint;
 use crate::document::{CurveId, Document, Edit};
-use crate::editor::{Editor, Look, told};
+use crate::editor::{Editor, Look, MATCH_END, told};
 use crate::geometry::Continuity;
 use crate::geometry::parameters::Quantity;
 
@@ -62,7 +62,7 @@ pub fn joint_list_ui(ui: &mut Ui, editor: &mut Editor) {
         None => {}
         Some(Act::Hover(index)) => editor.view_mut().hover_joint(index),
         Some(Act::Go(index)) => editor.look(Look::Joint(index)),
-        Some(Act::Match(edits)) => told(editor.apply("Match end", edits)),
+        Some(Act::Match(edits)) => told(editor.apply(MATCH_END, edits)),
     }
 }
 

@@ -9,6 +9,19 @@ use glam::DVec3;
 use crate::common::Random;
 use crate::{HELD, check_ends};
 
+/// Ask for the features that stand out, with ends that keep something.
+fn wish(held: Held) -> Harmony<'static> {
+    Harmony {
+        stretch: None,
+        ends: [held; 2],
+        locked: &[],
+        extrema: None,
+        inflections: None,
+        torsion_extrema: None,
+        largest_deviation: None,
+    }
+}
+
 /// What curves there are before the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shape {
@@ -621,15 +634,7 @@ fn harmonising_does_not_fold_the_polygon() {
     let vertices: Vec<(f64, f64)> = image.chain(HALF).collect();
     let polygon = FloatPolygon::planar(5, &vertices).expect("a polygon");
     for held in [Held::Free, Held::Position, Held::Direction] {
-        let wish = Harmony {
-            stretch: None,
-            ends: [held; 2],
-            locked: &[],
-            extrema: None,
-            inflections: None,
-            torsion_extrema: None,
-            largest_deviation: None,
-        };
+        let wish = wish(held);
         let found = harmonise(&polygon, &wish, &Progress::default()).expect("a curve");
         assert!(found.reached, "{held:?}");
         assert!(
@@ -673,15 +678,7 @@ fn a_fit_that_is_less_even_than_the_polygon_was_is_no_harmony() {
         (45.11, 263.79),
     ];
     let polygon = FloatPolygon::planar(5, &vertices).expect("a polygon");
-    let wish = Harmony {
-        stretch: None,
-        ends: [Held::Direction; 2],
-        locked: &[],
-        extrema: None,
-        inflections: None,
-        torsion_extrema: None,
-        largest_deviation: None,
-    };
+    let wish = wish(Held::Direction);
     let found = harmonise(&polygon, &wish, &Progress::default()).expect("a curve");
     assert!(found.reached);
     let uneven = |polygon: &FloatPolygon| {

@@ -24,7 +24,7 @@ pub(in crate::editor) mod tools;
 pub(in crate::editor) mod typed_point;
 
 pub use drawing_plane::{Leg, LegLocks};
-pub use end_fit::{EndFitAction, EndFitReport, EndNoise, MatchReport};
+pub use end_fit::{EndFitAction, EndFitReport, EndNoise, MATCH_END, MatchReport};
 pub use following::{Follow, Following};
 pub use hand::Hand;
 pub use input::{Button, Input, Key, Modifiers};
