@@ -109,7 +109,7 @@ fn past_ends_ui(ui: &mut Ui, editor: &Editor, whiskers: &mut Whiskers) {
         return;
     };
     let others = document_unit::length(ui.ctx(), figures::significant(others, 4));
-    let found = format!("{past}, the others up to {others}");
+    let found = format!("{past}, others ≤ {others}");
     widgets::figure_row(ui, "Past an end", &found)
         .on_hover_text("Whiskers past an end of the other curve, and the longest of the others");
     if editor.sight().has_points_within_ends() {
