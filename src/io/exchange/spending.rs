@@ -1,13 +1,22 @@
-//! Limits of memory and work, against files that insert subfigures in subfigures without end.
+//! Limits of items, memory and work, against files that insert blocks in blocks without end.
 
 use crate::io::exchange::drawing::{Item, Shape};
 
-/// The most items of a file.
-const ITEMS: usize = 1_000_000;
+/// So many items any file may have: a file of five megabytes has as many without a block.
+const ITEMS: usize = 150_000;
+
+/// The bytes of a file that a further item takes.
+const ITEM_BYTES: usize = 32;
+
+/// The most items of a file of some length, those of all inserted blocks counted: as many as it could list one by one.
+pub(super) fn most_items(length: usize) -> usize {
+    ITEMS.max(length / ITEM_BYTES)
+}
 
 /// What reading has cost, and the limits.
 pub(super) struct Spending {
     items: usize,
+    most_items: usize,
     /// Estimated bytes of the items.
     memory: usize,
     memory_limit: usize,
@@ -24,6 +33,7 @@ impl Spending {
     pub fn of_file(length: usize) -> Self {
         Self {
             items: 0,
+            most_items: most_items(length),
             memory: 0,
             memory_limit: length.saturating_mul(10).max(96 << 20),
             work: 0,
@@ -36,7 +46,9 @@ impl Spending {
 
     /// Say whether a limit is reached.
     pub fn is_over(&self) -> bool {
-        self.items >= ITEMS || self.memory >= self.memory_limit || self.work >= self.work_limit
+        self.items >= self.most_items
+            || self.memory >= self.memory_limit
+            || self.work >= self.work_limit
     }
 
     /// Name the limit that was reached.
@@ -46,8 +58,8 @@ impl Spending {
         } else {
             "memory"
         };
-        if self.items >= ITEMS {
-            format!("{ITEMS} items are reached")
+        if self.items >= self.most_items {
+            format!("{} items are reached", self.items)
         } else {
             format!("the limit of {limit} is reached after {} items", self.items)
         }

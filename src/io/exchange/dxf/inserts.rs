@@ -13,13 +13,12 @@ use super::sections::Sections;
 use crate::io::exchange::drawing::{
     Affine, Conic, Drawing, Item, Kind, Nurbs, Other, Shape, Space,
 };
+use crate::io::exchange::spending::most_items;
 
 /// The deepest nesting of blocks.
 const DEEPEST: usize = 64;
-/// The most entities and blocks that inserts may draw.
-const MOST: usize = 1_000_000;
 /// The bytes up to which inserts may draw, by estimate, for files of up to `USUAL` bytes.
-const MEMORY: usize = 210_000_000;
+const MEMORY: usize = 120_000_000;
 /// Files above this get more, `MORE` bytes a byte.
 const USUAL: usize = 10_000_000;
 const MORE: usize = 20;
@@ -43,6 +42,8 @@ pub struct Placer<'a, 'n> {
     hidden: BTreeSet<String>,
     /// How many entities and blocks inserts drew.
     drawn: usize,
+    /// The most entities and blocks that inserts may draw.
+    most: usize,
     /// The bytes that are in use, by estimate.
     memory: usize,
     /// The most bytes that inserts may bring about.
@@ -80,6 +81,7 @@ impl<'a, 'n> Placer<'a, 'n> {
             open: Vec::new(),
             hidden: BTreeSet::new(),
             drawn: 0,
+            most: most_items(size),
             memory: 0,
             most_memory: MEMORY.saturating_add(more),
             is_full: false,
@@ -219,10 +221,12 @@ impl<'a, 'n> Placer<'a, 'n> {
             return false;
         }
         self.drawn += 1;
-        self.is_full = self.drawn > MOST || self.memory > self.most_memory;
+        self.is_full = self.drawn > self.most || self.memory > self.most_memory;
         if self.is_full {
-            let remark =
-                "INSERT cut off: inserts draw more than 1 000 000 entities or too much memory";
+            let most = self.most;
+            let remark = format!(
+                "INSERT cut off: inserts draw more than {most} entities or take too much memory"
+            );
             self.notes.add(at, remark);
         }
         !self.is_full

@@ -6,6 +6,7 @@ use std::cmp::Reverse;
 use super::tokens::{Params, Value, keyword, number_of, skip_space, skipped, split_list};
 use crate::io::exchange::drawing::Unreadable;
 use crate::io::exchange::remarks::Remarks;
+use crate::io::exchange::spending::most_items;
 
 /// The index of a file.
 pub struct Instances<'a> {
@@ -75,6 +76,11 @@ impl<'a> Instances<'a> {
             work: Cell::new(256_000_000 + 16 * bytes.len() as u64),
             memory: Cell::new(100_000_000 + 8 * bytes.len() as u64),
         })
+    }
+
+    /// How many items a drawing may have.
+    pub fn most_items(&self) -> usize {
+        most_items(self.bytes.len())
     }
 
     /// Look an instance up to read it.

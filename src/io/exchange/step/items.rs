@@ -16,8 +16,6 @@ use crate::io::exchange::remarks::Remarks;
 
 /// How deep solids, shells, faces and loops may be nested.
 const DEEPEST: usize = 64;
-/// How many items a drawing may have.
-const MOST: usize = 1_000_000;
 
 /// A walk through one representation.
 pub struct Walk<'a, 'r> {
@@ -90,7 +88,7 @@ impl<'a> Walk<'a, '_> {
 
     /// Whether no more items can be taken.
     pub fn is_full(&self) -> bool {
-        self.file.is_exhausted() || self.drawing.items.len() >= MOST
+        self.file.is_exhausted() || self.drawing.items.len() >= self.file.most_items()
     }
 
     /// Take the elements of a set; a set in a set is damage, or it holds itself.

@@ -29,7 +29,7 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         reader.leftovers(&mut drawing);
     }
     reader.external_files(&mut drawing);
-    if reader.file.is_exhausted() || drawing.items.len() >= 1_000_000 {
+    if reader.file.is_exhausted() || drawing.items.len() >= reader.file.most_items() {
         let reason = "it grows beyond what a file of this length may need; the rest is left out";
         reader.remarks.borrow_mut().add_at(1, "file", reason);
     }

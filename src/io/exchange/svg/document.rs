@@ -7,13 +7,14 @@ use roxmltree::{Document, Node, NodeId};
 use super::super::remarks::Remarks;
 use super::super::xml::Source;
 use super::lengths::{Along, Viewport, aspect_ratio, length, page, view_box};
-use super::maker::Maker;
+use super::maker::{Maker, Room};
 use super::names::{group_name, name};
 use super::namespaces::{SVG, XLINK};
 use super::style::{Sheet, Style};
 use super::transforms::{fit, matrix, transform};
 use super::{paths, shapes};
 use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Space, Unreadable};
+use crate::io::exchange::spending::most_items;
 
 /// The most groups and uses inside one another. Each is a recursion, and drawings have about ten.
 const DEPTH_LIMIT: usize = 64;
@@ -124,7 +125,7 @@ struct Walk<'d> {
     /// What may still be spent.
     budget: usize,
     /// How many bytes items may still take.
-    memory: usize,
+    room: Room,
     /// Whether the budget or the number of items is used up.
     full: bool,
     /// How many elements are hidden, and the first one's line.
@@ -165,9 +166,12 @@ impl<'d> Walk<'d> {
             remarks: Remarks::default(),
             used: Vec::new(),
             budget: COST + size / 4,
-            memory: MEMORY
-                .max(size.saturating_mul(20))
-                .saturating_sub(source.tree_size()),
+            room: Room {
+                memory: MEMORY
+                    .max(size.saturating_mul(20))
+                    .saturating_sub(source.tree_size()),
+                items: most_items(size),
+            },
             full: false,
             hidden: (0, 0),
             empty: (0, 0),
@@ -411,7 +415,7 @@ impl<'d> Walk<'d> {
         let items = std::mem::take(&mut self.drawing.items);
         let (place, before) = (self.placed(node, outer), items.len());
         let mut is_whole = true;
-        let mut maker = Maker::new(place, item, items, self.memory);
+        let mut maker = Maker::new(place, item, items, self.room);
         if node.tag_name().name() == "path" {
             let data = node.attribute("d").unwrap_or_default();
             let outcome = paths::read(data, &mut |shapes| maker.take(shapes));
@@ -437,7 +441,7 @@ impl<'d> Walk<'d> {
             );
         }
         let full = maker.is_full();
-        self.memory = maker.memory;
+        self.room = maker.room;
         self.drawing.items = maker.items;
         self.drawn += 1;
         if let Some(places) = &mut self.places {

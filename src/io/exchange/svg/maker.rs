@@ -3,9 +3,6 @@
 use super::super::pieces::is_finite;
 use crate::io::exchange::drawing::{Affine, Item, Shape};
 
-/// The most items. Only elements that are used again and again reach it.
-const ITEM_LIMIT: usize = 1_000_000;
-
 /// Makes the items of one element.
 pub(super) struct Maker {
     place: Affine,
@@ -15,19 +12,28 @@ pub(super) struct Maker {
     pub(super) items: Vec<Item>,
     /// How many were beyond all numbers.
     pub(super) infinite: usize,
-    /// How many bytes items may still take.
+    /// The room that is left.
+    pub(super) room: Room,
+}
+
+/// The room for items.
+#[derive(Clone, Copy)]
+pub(super) struct Room {
+    /// How many bytes they may still take.
     pub(super) memory: usize,
+    /// How many there may be.
+    pub(super) items: usize,
 }
 
 impl Maker {
     /// Make items like one without shapes, behind other items.
-    pub(super) fn new(place: Affine, item: Item, items: Vec<Item>, memory: usize) -> Self {
+    pub(super) fn new(place: Affine, item: Item, items: Vec<Item>, room: Room) -> Self {
         Self {
             place,
             item,
             items,
             infinite: 0,
-            memory,
+            room,
         }
     }
 
@@ -46,7 +52,7 @@ impl Maker {
                 shapes,
                 ..self.item.clone()
             };
-            self.memory = self.memory.saturating_sub(size(&item));
+            self.room.memory = self.room.memory.saturating_sub(size(&item));
             self.items.push(item);
         } else {
             self.infinite += 1;
@@ -56,7 +62,7 @@ impl Maker {
 
     /// Tell whether there is no room for another item.
     pub(super) fn is_full(&self) -> bool {
-        self.memory == 0 || self.items.len() >= ITEM_LIMIT
+        self.room.memory == 0 || self.items.len() >= self.room.items
     }
 }
 

@@ -11,12 +11,11 @@ use super::instances::{Definition, Reference, reference};
 use super::layers::Layers;
 use super::objects::Object;
 use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Shape, Space};
+use crate::io::exchange::spending::most_items;
 
 /// References within definitions.
 const DEPTH: usize = 64;
-/// Items and references, so that a small file cannot ask for endlessly many.
-const ITEMS: usize = 1_000_000;
-/// Bytes of items, for the same reason; more for larger files.
+/// Bytes of items, so that a small file cannot ask for endlessly many; more for larger files.
 const BYTES: usize = 144 << 20;
 /// Remarks; the rest are counted.
 const REMARKS: usize = 500;
@@ -69,7 +68,7 @@ impl Report {
     /// Begin a report on a file of so many bytes.
     pub(super) fn new(length: usize) -> Self {
         Self {
-            items: ITEMS,
+            items: most_items(length),
             bytes: BYTES.max(length.saturating_mul(15)),
             ..Self::default()
         }
