@@ -13,7 +13,6 @@ use crate::document::{CurveId, Document, Edit, quoted};
 use crate::geometry::Progress;
 use crate::geometry::distance::{CurveSide, SideDeviation, Whisker};
 use crate::geometry::expressions::LengthUnit;
-use crate::io::json_layout;
 
 /// A curve or reference of a source.
 pub(super) struct Compared {
@@ -80,7 +79,7 @@ pub(super) fn run(compared: [&Compared; 2], limit: Option<f64>) -> anyhow::Resul
         back.map(|it| Side::of(it, [b, a])),
     ];
     let (past, within) = deviation.past_ends().unwrap_or((0, largest));
-    output::print(&json_layout::to_text(&Report {
+    output::print_json(&Report {
         a: document.name(a.1).unwrap_or_default(),
         b: other.name(b.1).unwrap_or_default(),
         unit: document.unit().or(other.unit()).map(LengthUnit::symbol),
@@ -94,7 +93,7 @@ pub(super) fn run(compared: [&Compared; 2], limit: Option<f64>) -> anyhow::Resul
         whiskers: deviation.whiskers().count(),
         past_ends: past,
         largest_within: within,
-    }))?;
+    })?;
     Ok(match limit {
         Some(limit) if largest > limit => ExitCode::FAILURE,
         _ => ExitCode::SUCCESS,

@@ -7,13 +7,13 @@ use serde::Serialize;
 use super::ends::Source;
 use super::feature_lists::FeatureLists;
 use super::inspected_reference::InspectedReference;
-use super::output::{self, Messages};
+use super::output::{self, Messages, OneByOne};
 use super::progress::Progress;
 use crate::document::Curve;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::features::Features;
 use crate::geometry::{ClampedPolygon, End, FloatPolygon, Jet};
-use crate::io::{Place, Reading, json_layout};
+use crate::io::{Place, Reading};
 
 /// Levels of curvature and torsion that are printed.
 const LEVELS: usize = 3;
@@ -41,7 +41,7 @@ pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
     }
     let mut progress = Progress::new();
     let count = curves.len();
-    let curves = curves.iter().enumerate().map(|(index, curve)| {
+    let features = curves.iter().enumerate().map(|(index, curve)| {
         let segments = curve.polygon.segments();
         let told = |segment| {
             let (curve, segment) = (index + 1, segment + 1);
@@ -50,26 +50,28 @@ pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
             ));
             true
         };
-        let features = Features::proved(&curve.polygon, told).unwrap_or_default();
-        inspected(curve, at, &features)
+        Features::proved(&curve.polygon, told).unwrap_or_default()
     });
-    let curves = curves.collect();
+    let features: Vec<Features> = features.collect();
     drop(progress);
     let unit = unit.map(LengthUnit::symbol);
-    let references = references.iter().map(InspectedReference::of).collect();
-    output::print(&json_layout::to_text(&Report {
+    let curves = curves.iter().zip(&features);
+    let curves = OneByOne::new(curves.map(|(curve, features)| inspected(curve, at, features)));
+    let references = OneByOne::new(references.iter().map(InspectedReference::of));
+    output::print_json(&Report {
         unit,
         curves,
         references,
-    }))
+    })
 }
 
 #[derive(Serialize)]
-struct Report {
+#[serde(bound = "")]
+struct Report<C: Iterator<Item = Inspected>, R: Iterator<Item = InspectedReference>> {
     /// The unit of all coordinates; null if the file says none.
     unit: Option<&'static str>,
-    curves: Vec<Inspected>,
-    references: Vec<InspectedReference>,
+    curves: OneByOne<C>,
+    references: OneByOne<R>,
 }
 
 #[derive(Serialize)]

@@ -72,12 +72,25 @@ impl InspectedReference {
                 scale: placement.scale(),
                 translation: placement.translation().to_array(),
             },
-            features: SampledFeatures::of(reference),
+            features: match curve.form().is_smooth() {
+                true => SampledFeatures::of(reference),
+                false => SampledFeatures::none(),
+            },
         }
     }
 }
 
 impl SampledFeatures {
+    /// Straight lines have none.
+    fn none() -> Self {
+        Self {
+            sampled: true,
+            inflections: Vec::new(),
+            curvature_extrema: Vec::new(),
+            cusps: Vec::new(),
+        }
+    }
+
     fn of(reference: &Reference) -> Self {
         let analysis = ReferenceAnalysis::new(Arc::new(reference.clone()));
         let at = |feature: &SampledFeature| reference.curve.parameter(feature.u);

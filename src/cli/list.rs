@@ -4,11 +4,11 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::output;
+use super::output::{self, OneByOne};
 use crate::geometry::expressions::LengthUnit;
-use crate::io::exchange::drawing::{Drawing, Item, Shape, Space};
+use crate::io::exchange::drawing::{Item, Shape, Space};
 use crate::io::exchange::import::FoundRow;
-use crate::io::{Format, disk, json_layout};
+use crate::io::{Format, disk};
 
 /// The names of units that Batten itself does not have, by their millimetres.
 const OTHER_UNITS: [(&str, f64); 8] = [
@@ -36,13 +36,14 @@ pub(super) struct Listed {
 
 /// The printed list.
 #[derive(Serialize)]
-struct List {
+#[serde(bound = "")]
+struct List<'d, I: Iterator<Item = ListedItem>> {
     format: &'static str,
     unit: Option<String>,
     rows: Vec<ListedRow>,
-    items: Vec<ListedItem>,
+    items: OneByOne<I>,
     other: Vec<ListedOther>,
-    remarks: Vec<String>,
+    remarks: &'d [String],
 }
 
 #[derive(Serialize)]
@@ -93,37 +94,27 @@ pub(super) fn run(
     listed: Listed,
 ) -> anyhow::Result<()> {
     let (drawing, format) = disk::draw_file(file, format)?;
-    output::print(&json_layout::to_text(&List::of(
-        drawing,
-        format.name,
-        listed,
-    )))
-}
-
-impl List {
-    fn of(drawing: Drawing, format: &'static str, listed: Listed) -> Self {
-        let is_listed = |space: Space| match space {
-            Space::Model => true,
-            Space::Paper => listed.paper,
-            Space::Edge => listed.edges,
-        };
-        let items = drawing.items.iter().filter(|item| is_listed(item.space));
-        let found = drawing.found();
-        let rows = found.rows.iter().filter(|row| is_listed(row.key.space));
-        let others = drawing.other.iter().map(|other| ListedOther {
-            kind: other.kind.clone(),
-            count: other.count,
-            at: other.at,
-        });
-        Self {
-            format,
-            unit: drawing.unit.map(unit_name),
-            rows: rows.map(ListedRow::of).collect(),
-            items: items.map(ListedItem::of).collect(),
-            other: others.collect(),
-            remarks: drawing.remarks,
-        }
-    }
+    let is_listed = |space: Space| match space {
+        Space::Model => true,
+        Space::Paper => listed.paper,
+        Space::Edge => listed.edges,
+    };
+    let rows = drawing.found().rows;
+    let rows = rows.iter().filter(|row| is_listed(row.key.space));
+    let items = drawing.items.iter().filter(|item| is_listed(item.space));
+    let others = drawing.other.iter().map(|other| ListedOther {
+        kind: other.kind.clone(),
+        count: other.count,
+        at: other.at,
+    });
+    output::print_json(&List {
+        format: format.name,
+        unit: drawing.unit.map(unit_name),
+        rows: rows.map(ListedRow::of).collect(),
+        items: OneByOne::new(items.map(ListedItem::of)),
+        other: others.collect(),
+        remarks: &drawing.remarks,
+    })
 }
 
 impl ListedRow {
@@ -149,7 +140,7 @@ impl ListedItem {
         let is_curve = match &item.shapes[..] {
             [Shape::Nurbs(nurbs)] => {
                 let checked = nurbs.checked().ok();
-                checked.is_some_and(|nurbs| nurbs.float_polygon().is_some())
+                checked.is_some_and(|nurbs| nurbs.has_float_polygon())
             }
             _ => false,
         };

@@ -31,7 +31,6 @@ use clap::Parser;
 
 use crate::geometry::paper::CircleComparison;
 use crate::io::examples::{EXAMPLES, Example};
-use crate::io::json_layout;
 use arguments::{Arguments, Task};
 
 /// The request of the command line.
@@ -157,7 +156,7 @@ fn table1(json: bool) -> anyhow::Result<()> {
                 "bezier": row.bezier,
             })
         });
-        return output::print(&json_layout::to_text(&rows.collect::<Vec<_>>()));
+        return output::print_json(&rows.collect::<Vec<_>>());
     }
     let mut text =
         "Largest distance of the evolute from the circle's centre, radius 10\n".to_owned();

@@ -1,10 +1,12 @@
 //! Printing to readers that may go away.
 
-use std::cell::RefCell;
-use std::io::{self, ErrorKind, Write};
+use std::cell::{Cell, RefCell};
+use std::io::{self, BufWriter, ErrorKind, Write};
+
+use serde::{Serialize, Serializer};
 
 use crate::document::cut;
-use crate::io::Remarks;
+use crate::io::{Remarks, json_layout};
 
 /// Where the remarks on files go.
 #[derive(Debug)]
@@ -53,9 +55,36 @@ pub(super) fn print_error(text: &str) {
 
 /// Print bytes, as [`print`] does text.
 pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
-    let mut out = io::stdout().lock();
-    let result = out.write_all(bytes).and_then(|()| out.flush());
-    match result {
+    printed(|out| out.write_all(bytes))
+}
+
+/// Print a value as JSON.
+pub(super) fn print_json<T: Serialize>(value: &T) -> anyhow::Result<()> {
+    printed(|out| json_layout::write(value, out))
+}
+
+/// A list whose elements are made when they are printed, one by one.
+pub(super) struct OneByOne<I>(Cell<Option<I>>);
+
+impl<I> OneByOne<I> {
+    /// Wait to print the elements, once.
+    pub(super) fn new(elements: I) -> Self {
+        Self(Cell::new(Some(elements)))
+    }
+}
+
+impl<I: Iterator> Serialize for OneByOne<I>
+where
+    I::Item: Serialize,
+{
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.0.take().into_iter().flatten())
+    }
+}
+
+fn printed(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> anyhow::Result<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    match write(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(anyhow::Error::new(error).context("cannot write to the standard output"))
         }

@@ -13,11 +13,19 @@ use serde_json::ser::{CompactFormatter, Formatter, Serializer};
 /// If the value has maps whose keys are not strings, or a `Serialize` of its own that fails.
 pub fn to_text<T: Serialize>(value: &T) -> String {
     let mut bytes = Vec::new();
-    let mut serializer = Serializer::with_formatter(&mut bytes, Layout::default());
-    let result = value.serialize(&mut serializer);
+    let result = write(value, &mut bytes);
     result.expect("plain data can be written to memory");
-    bytes.push(b'\n');
     String::from_utf8(bytes).expect("JSON is UTF-8")
+}
+
+/// Write a value as [`to_text`] lays it out, bit by bit.
+///
+/// # Errors
+/// What the writer says.
+pub fn write<T: Serialize>(value: &T, mut writer: impl Write) -> io::Result<()> {
+    let mut serializer = Serializer::with_formatter(&mut writer, Layout::default());
+    value.serialize(&mut serializer)?;
+    writer.write_all(b"\n")
 }
 
 /// Write a value as JSON text of a single line, with the numbers of [`to_text`].
