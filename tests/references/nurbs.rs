@@ -216,3 +216,42 @@ fn what_is_no_curve_is_refused_with_the_place() {
         Err(NurbsError::Weight(3))
     );
 }
+
+/// Splines of a degree on uneven knots, some of them multiple, in space.
+fn uneven(degree: usize) -> Nurbs {
+    let inner = [0.3, 1.0, 1.0, 1.7, 4.0, 4.0, 4.0, 4.2];
+    let inner = inner.into_iter().filter(|knot| *knot != 4.0 || degree > 2);
+    let knots = [
+        vec![0.0; degree + 1],
+        inner.collect(),
+        vec![5.0; degree + 1],
+    ]
+    .concat();
+    let points = (0..knots.len() - degree - 1).map(|index| {
+        let t = index as f64;
+        DVec3::new(t, (1.3 * t).sin(), 0.1 * t * t)
+    });
+    let points = points.collect();
+    Nurbs::new(degree, knots, points, None, false).expect("a spline")
+}
+
+#[test]
+fn a_chain_of_beziers_is_the_same_curve() {
+    for degree in [2, 3, 5, 8] {
+        let nurbs = uneven(degree);
+        let chain = nurbs.bezier_chain().expect("a chain");
+        let inner = &chain.knots()[degree + 1..chain.points().len()];
+        let times = |knot: f64| inner.iter().filter(|it| **it == knot).count();
+        assert!(inner.iter().all(|knot| times(*knot) == degree), "{inner:?}");
+        let [own, other] = [nurbs, chain].map(reference);
+        for step in 0..=200 {
+            let t = f64::from(step) / 40.0;
+            let [point, expected] = [&other, &own].map(|it| it.derivatives(t, 0)[0]);
+            assert!(
+                point.distance(expected) <= 20.0 * ROUNDING,
+                "degree {degree}, t = {t}: {point} for {expected}"
+            );
+        }
+    }
+    assert_eq!(circle().bezier_chain(), None, "a rational one has none");
+}

@@ -136,6 +136,43 @@ impl Nurbs {
         interval(self.degree, &self.knots)
     }
 
+    /// The same curve with all knots as multiple as the degree: a chain of Bézier segments. `None` for rational curves.
+    ///
+    /// Point j of a segment over [a, b] is the blossom at n − j times a and j times b (Ramshaw).
+    pub fn bezier_chain(&self) -> Option<Self> {
+        if self.weights.is_some() {
+            return None;
+        }
+        let n = self.degree;
+        let (mut knots, mut points) = (Vec::new(), Vec::new());
+        for knot in self.spans() {
+            let [from, to] = [self.knots[knot], self.knots[knot + 1]];
+            let begin = if points.is_empty() { 0 } else { 1 };
+            knots.extend(vec![from; if begin == 0 { n + 1 } else { n }]);
+            points.extend(
+                (begin..=n).map(|j| self.blossom(knot, |round| if round <= j { to } else { from })),
+            );
+        }
+        knots.extend(vec![self.interval()[1]; n + 1]);
+        Self::new(n, knots, points, None, false).ok()
+    }
+
+    /// The blossom of the polynomial between a knot and the next at the parameters `at(1)` to `at(n)`.
+    fn blossom(&self, knot: usize, at: impl Fn(usize) -> f64) -> DVec3 {
+        let n = self.degree;
+        let mut values = self.points[knot - n..=knot].to_vec();
+        for round in 1..=n {
+            let t = at(round);
+            for index in (round..=n).rev() {
+                let low = self.knots[knot + index - n];
+                let high = self.knots[knot + index + 1 - round];
+                let share = (t - low) / (high - low);
+                values[index] = values[index - 1] * (1.0 - share) + values[index] * share;
+            }
+        }
+        values[n]
+    }
+
     /// How many derivatives are continuous at all its knots.
     pub fn continuity(&self) -> usize {
         let inner = inner_knots(self.degree, &self.knots);
@@ -161,7 +198,17 @@ impl Nurbs {
 
     /// The point at t and its derivatives by t, by the polynomials that hold around `about`.
     pub(super) fn derivatives_beside(&self, about: f64, t: f64, order: usize) -> Vec<DVec3> {
-        let knot = self.span_at(about);
+        let mut values = self.expansion(self.span_at(about), t, order);
+        let mut factorial = 1.0;
+        for (order, value) in values.iter_mut().enumerate() {
+            factorial *= order.max(1) as f64;
+            *value *= factorial;
+        }
+        values
+    }
+
+    /// The coefficients of the series about t of the curve between a knot and the next.
+    fn expansion(&self, knot: usize, t: f64, order: usize) -> Vec<DVec3> {
         let mut values = self.taylor(knot, t, order, |index| {
             let point = self.points[index];
             self.weights.as_ref().map_or(point, |it| it[index] * point)
@@ -169,11 +216,6 @@ impl Nurbs {
         if let Some(weights) = &self.weights {
             let below = self.taylor(knot, t, order, |index| weights[index]);
             divide(&mut values, &below);
-        }
-        let mut factorial = 1.0;
-        for (order, value) in values.iter_mut().enumerate() {
-            factorial *= order.max(1) as f64;
-            *value *= factorial;
         }
         values
     }
@@ -292,9 +334,7 @@ impl Nurbs {
     fn turning(&self, knot: usize, [from, to]: [f64; 2]) -> f64 {
         let directions = (0..=SAMPLES).filter_map(|sample| {
             let share = sample as f64 / SAMPLES as f64;
-            let t = PowerSeries::parameter(from * (1.0 - share) + to * share, 1);
-            let series = self.series(knot, &t);
-            let values = PowerSeries::derivatives(series.each_ref());
+            let values = self.expansion(knot, from * (1.0 - share) + to * share, 1);
             values.get(1).copied().and_then(vector::direction)
         });
         let directions: Vec<DVec3> = directions.collect();

@@ -10,6 +10,14 @@ const EVEN: f64 = 1e-12;
 /// A curve whose ends lie this near, in units of its largest coordinate, may be periodic.
 const CLOSED: f64 = 1e-9;
 
+/// What joins with smoothness n − 1 within rounding has no jump of the first derivative above this, in units of the size
+/// about the joint.
+const SMOOTH: f64 = 1e-6;
+
+/// Up to this degree and size a polynomial curve on even clamped knots loses no digits on the way to its float polygon.
+const PLAIN_DEGREE: usize = 3;
+const PLAIN_SIZE: f64 = 1e100;
+
 impl Nurbs {
     /// Find the float polygon of the same curve: there is one if its knots are those of a float, a clamped or a Bézier
     /// polygon, and its segments join with smoothness n − 1. A curve that closes with that smoothness is periodic.
@@ -29,13 +37,27 @@ impl Nurbs {
         }
         let segments = (count - 1) as f64 / n as f64;
         let repeated = |knot: usize| ((knot - 1) as f64 / n as f64).floor().clamp(0.0, segments);
-        if segments.fract() == 0.0 && self.has_knots(segments, repeated) {
+        let is_chain = segments.fract() == 0.0 && self.has_knots(segments, repeated);
+        if is_chain && self.joins_smoothly() {
             let make = || BezierPolygon::new(n, self.points().to_vec(), self.owned_weights());
             return self.converted(make, BezierPolygon::nearest_periodic_float, |it| {
                 it.nearest_float()
             });
         }
         None
+    }
+
+    /// Whether there is such a polygon: [`Nurbs::float_polygon`] is asked where its conversion may fail.
+    pub fn has_float_polygon(&self) -> bool {
+        let (n, segments) = (self.degree(), self.points().len() - self.degree());
+        let clamped = |knot: usize| (knot as f64 - n as f64).clamp(0.0, segments as f64);
+        let is_plain = n <= PLAIN_DEGREE
+            && self.weights().is_none()
+            && self
+                .points()
+                .iter()
+                .all(|it| it.abs().max_element() <= PLAIN_SIZE);
+        is_plain && self.has_knots(segments as f64, clamped) || self.float_polygon().is_some()
     }
 
     /// Whether the knots stand at given places of an interval of so many segments. The first and the last knot have no
@@ -47,6 +69,22 @@ impl Nurbs {
             (self.knots()[index] - place).abs() <= EVEN * (to - from)
         };
         (1..self.knots().len() - 1).all(is_there)
+    }
+
+    /// Whether the direction and the speed go on at all joints of Bézier segments, as far as a glance at the points
+    /// beside them tells.
+    fn joins_smoothly(&self) -> bool {
+        let (n, points) = (self.degree(), self.points());
+        let mut inner = (n..points.len() - 1).step_by(n);
+        n == 1
+            || inner.all(|joint| {
+                let legs = [joint, joint + 1].map(|end| points[end] - points[end - 1]);
+                let weight = |index: usize| self.weights().map_or(1.0, |it| it[index]);
+                let [before, after] = [weight(joint - 1), weight(joint + 1)];
+                let size = points[joint].abs().max_element() + legs[0].length() + legs[1].length();
+                let jump = after * legs[1] - before * legs[0];
+                jump.length() <= SMOOTH * size * before.max(after)
+            })
     }
 
     /// The curve on even knots, whose points are the float vertices.

@@ -19,6 +19,9 @@ const FEW: usize = 20;
 /// piece's height.
 const STEPS: usize = 16;
 
+/// The same of a reference, whose pieces turn little.
+const REFERENCE_STEPS: usize = 4;
+
 /// The digits of a size.
 const DIGITS: usize = 4;
 
@@ -123,11 +126,11 @@ impl FoundRow {
             match Made::of(shape.clone()) {
                 Ok(Made::Curve(near)) => {
                     self.curves += 1;
-                    self.reach(&near.polygon);
+                    self.reach(&near.polygon, STEPS);
                 }
                 Ok(Made::Reference(curve)) => {
                     self.references += usize::from(curve.form().is_smooth());
-                    self.reach(&curve);
+                    self.reach(&curve, REFERENCE_STEPS);
                 }
                 Err(_) => {
                     if let Shape::Point(point) = shape {
@@ -139,11 +142,11 @@ impl FoundRow {
     }
 
     /// Widen the box by a curve.
-    fn reach(&mut self, curve: &dyn ParametricCurve) {
+    fn reach(&mut self, curve: &dyn ParametricCurve, steps: usize) {
         for piece in 0..curve.pieces() {
-            for step in 0..=STEPS {
+            for step in 0..=steps {
                 let mut point = [DVec3::ZERO];
-                curve.fill_derivatives(piece, step as f64 / STEPS as f64, &mut point);
+                curve.fill_derivatives(piece, step as f64 / steps as f64, &mut point);
                 self.include(point[0]);
             }
         }
