@@ -4,7 +4,9 @@ use std::fmt;
 
 use super::degree::{Goal, changed_features, fewest};
 use super::error::OperationError;
-use crate::document::{Curve, Document, first_quoted, quoted};
+use super::floats::{FloatRequest, floats_of};
+use crate::document::{Curve, Document, Reference, first_quoted, quoted};
+use crate::geometry::references::ReferenceForm;
 use crate::geometry::{BezierPolygon, Progress, counted, rounded_up};
 
 /// The tolerance without a wish, in units of a curve's size.
@@ -93,8 +95,9 @@ pub fn told_of_lowered(lowered: &[Lowered]) -> Vec<String> {
     lines.collect()
 }
 
-/// Give all curves of a higher degree than `most` that degree, with the fewest vertices within a tolerance (without one
-/// 1e-4 of a curve's size) that keep its features where that is possible.
+/// Give all curves and B-spline references of a higher degree than `most` that degree, with the fewest vertices within a
+/// tolerance (without one 1e-4 of a curve's size) that keep its features where that is possible. A reference becomes
+/// curves.
 ///
 /// The result is a copy to export: it has the curves and references, their attributes and the unit, and no matches.
 ///
@@ -140,8 +143,29 @@ pub fn lowered(
         }
         curves.push(copy);
     }
-    let references = document.references();
-    let references = references.map(|(_, it)| it.as_ref().clone());
+    let mut references = Vec::new();
+    for (_, reference) in document.references() {
+        match reference.curve.form() {
+            ReferenceForm::Nurbs(nurbs) if nurbs.degree() > most => {
+                let request = FloatRequest {
+                    degree: Some(most),
+                    tolerance,
+                };
+                let floats = floats_of(reference, request, progress)?;
+                told.push(Lowered {
+                    name: reference.name.clone(),
+                    degree: nurbs.degree(),
+                    lowered: most,
+                    vertices: floats.vertices,
+                    deviation: floats.deviation,
+                    is_within: floats.is_within,
+                    changed: None,
+                });
+                curves.extend(floats.curves);
+            }
+            _ => references.push(Reference::clone(reference)),
+        }
+    }
     let lowered = Document::from_curves(curves).with_references(references);
     Ok((lowered.with_unit(document.unit()), told))
 }
@@ -149,6 +173,9 @@ pub fn lowered(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::ParametricCurve;
+    use crate::geometry::references::{Nurbs, ReferenceCurve};
+    use glam::DVec3;
 
     #[test]
     fn many_curves_are_told_of_by_kind() {
@@ -172,5 +199,31 @@ mod tests {
         );
         let few: Vec<String> = all[..2].iter().map(ToString::to_string).collect();
         assert_eq!(told_of_lowered(&all[..2]), few);
+    }
+
+    #[test]
+    fn splines_on_any_knots_are_lowered_too() {
+        let points = (0..9).map(|index| {
+            let t = f64::from(index);
+            DVec3::new(t, (0.9 * t).sin(), 0.0)
+        });
+        let knots = [vec![0.0; 6], vec![1.0, 2.5, 3.0], vec![4.0; 6]].concat();
+        let nurbs = Nurbs::new(5, knots, points.collect(), None, false);
+        let nurbs = ReferenceForm::Nurbs(nurbs.expect("a spline"));
+        let own = ReferenceCurve::of(nurbs).expect("a reference");
+        let document = Document::default().with_references([Reference::new("hull", own.clone())]);
+        let (kept, told) = lowered(&document, 5, None, &Progress::default()).expect("kept");
+        assert!(told.is_empty() && kept.references().len() == 1);
+        let (made, told) = lowered(&document, 3, Some(1e-3), &Progress::default()).expect("made");
+        assert_eq!((told[0].degree, told[0].lowered), (5, 3));
+        assert!(told[0].is_within, "{told:?}");
+        let (_, curve) = made.curves().next().expect("a curve");
+        assert_eq!((curve.polygon.degree(), made.references().len()), (3, 0));
+        let last = own.pieces() as f64;
+        for step in 0..=50 {
+            let point = own.jet(last * f64::from(step) / 50.0).point;
+            let distance = curve.polygon.nearest(point).distance;
+            assert!(distance <= 1e-3, "{distance} at {point}");
+        }
     }
 }
