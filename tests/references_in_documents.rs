@@ -3,7 +3,8 @@
 use batten::document::{
     Colour, Curve, CurveId, Document, Edit, EditError, EndMatch, History, MatchPlace, Reference,
 };
-use batten::geometry::references::{Placement, ReferenceCurve};
+use batten::geometry::expressions::LengthUnit;
+use batten::geometry::references::{Placement, PointList, ReferenceCurve, ReferenceForm};
 use batten::geometry::{Continuity, End, FloatPolygon, ParametricCurve};
 use glam::{DQuat, DVec3};
 
@@ -247,5 +248,106 @@ fn a_curve_that_is_placed_far_away_is_no_point() {
         let placement = placement.expect("a placement");
         let made = ReferenceCurve::new(circle.form().clone(), circle.interval(), placement);
         assert!(made.is_ok(), "{far:e}");
+    }
+}
+
+/// The document that comes of a file of a format.
+fn through(document: &Document, extension: &str) -> Document {
+    let format = batten::io::formats::find(extension).expect("a format");
+    let export = format.write(document, None).expect("written");
+    let reading = format.read(&export.bytes).expect("read");
+    reading.into_document().expect("a document")
+}
+
+#[test]
+fn single_points_stay_single_points() {
+    let points = [
+        DVec3::new(0.1, 0.0, 0.0),
+        DVec3::new(5.0, 2.0, -1.0),
+        DVec3::new(1.0, 7.0, 1.0 / 3.0),
+    ];
+    let list = |points: &[DVec3]| PointList::new(points.to_vec()).expect("points");
+    let of = |list| ReferenceCurve::of(ReferenceForm::Points(list)).expect("a reference");
+    let references = [
+        Reference::new("scan", of(list(&points).apart())),
+        Reference::new("row", of(list(&points))),
+    ];
+    let document = Document::default()
+        .with_references(references)
+        .with_unit(Some(LengthUnit::Millimetre));
+    for extension in ["batten", "dxf", "step", "igs", "3dm", "obj", "brep"] {
+        let found = through(&document, extension);
+        let apart = |is_apart: bool| {
+            let mut references = found.references();
+            let wanted = |reference: &Reference| match reference.curve.form() {
+                ReferenceForm::Points(list) => list.is_apart() == is_apart,
+                _ => false,
+            };
+            let found = references.find(|(_, reference)| wanted(reference));
+            found.map(|(_, reference)| reference.points().expect("points"))
+        };
+        let names: Vec<&str> = found.names().collect();
+        assert_eq!(
+            apart(true).as_deref(),
+            Some(&points[..]),
+            "{extension}: {names:?}"
+        );
+        assert_eq!(
+            apart(false).as_deref(),
+            Some(&points[..]),
+            "{extension}: {names:?}"
+        );
+    }
+}
+
+#[test]
+fn arcs_in_any_plane_come_through_dxf() {
+    let turns = [
+        DQuat::IDENTITY,
+        DQuat::from_rotation_x(0.7),
+        DQuat::from_rotation_x(std::f64::consts::PI),
+        DQuat::from_rotation_y(1.2) * DQuat::from_rotation_z(0.4),
+    ];
+    let kinds = [
+        ("circle:radius=4", [4.0, 4.0]),
+        ("ellipse:a=2,b=3", [2.0, 3.0]),
+        ("circle:radius=4,from=0.3,to=2", [4.0, 4.0]),
+    ];
+    for ((text, [a, b]), turn) in kinds
+        .into_iter()
+        .flat_map(|kind| turns.map(|turn| (kind, turn)))
+    {
+        let place = DVec3::new(1.0, -2.0, 5.0);
+        let placement = Placement::new(turn, 1.5, place).expect("a placement");
+        let own = reference(text).curve.placed(placement);
+        let document = Document::default()
+            .with_references([Reference::new("arc", own.clone())])
+            .with_unit(Some(LengthUnit::Millimetre));
+        let found = through(&document, "dxf");
+        let (_, found) = found.references().next().expect("an arc");
+        let at = |curve: &ReferenceCurve, share: f64| {
+            let last = curve.pieces() as f64;
+            curve.jet(share * last).point
+        };
+        for step in 0..=20 {
+            let point = at(&found.curve, f64::from(step) / 20.0);
+            let local = turn.inverse() * (point - place) / 1.5;
+            let off = (local.x / a).hypot(local.y / b) - 1.0;
+            assert!(
+                off.abs() <= 1e-13 && local.z.abs() <= 1e-13,
+                "{text}, {turn}: {local}"
+            );
+        }
+        let is_whole = !text.contains("from=");
+        let ends = [0.0, 0.5, 1.0].map(|share| at(&own, share));
+        let found = [0.0, 0.5, 1.0].map(|share| at(&found.curve, share));
+        let is_same = |shares: [usize; 3]| {
+            let mut pairs = ends.iter().zip(shares.map(|share| found[share]));
+            pairs.all(|(own, found)| own.distance(found) <= 1e-12)
+        };
+        assert!(
+            is_whole || is_same([0, 1, 2]) || is_same([2, 1, 0]),
+            "{text}, {turn}: {found:?}"
+        );
     }
 }

@@ -11,7 +11,7 @@ use super::sampled_features::{SampledFeature, sampled_features};
 use super::vertex_chain::VertexChain;
 use crate::document::Reference;
 use crate::geometry::ParametricCurve;
-use crate::geometry::references::Placement;
+use crate::geometry::references::{Placement, ReferenceForm};
 
 /// The samples of a reference, about: fewer than of a curve, since each may take an integral.
 const SAMPLES: usize = 1024;
@@ -88,6 +88,12 @@ impl ReferenceAnalysis {
     /// Whether it is a curve that has a curvature everywhere; a list of points is none.
     pub fn is_smooth(&self) -> bool {
         self.reference.curve.form().is_smooth()
+    }
+
+    /// Whether it is a list of single points, which no lines join.
+    pub fn has_points_apart(&self) -> bool {
+        let form = self.reference.curve.form();
+        matches!(form, ReferenceForm::Points(list) if list.is_apart())
     }
 
     /// Append a plot of the whole curve: see [`LevelSeries::append`].

@@ -470,6 +470,10 @@ impl Loss {
             Self::Picture => lost("pictures aren't"),
             Self::PointWeights => lost("weights of points aren't"),
             Self::Curve => lost("curves aren't"),
+            // A curve of any degree is written as cubics.
+            Self::LeftOut { what, is_curve } if !is_curve && what.contains("spline") => format!(
+                "left out: {what}, which {format} cannot hold; a float polygon made of it can be written"
+            ),
             Self::LeftOut { what, .. } => {
                 format!("left out: {what}, which {format} cannot hold")
             }

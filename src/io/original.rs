@@ -116,9 +116,9 @@ impl Original {
         let now: HashMap<CurveId, Part> = parts(document).collect();
         let mut heirs = Heirs::new(&old, document);
         let to_file = scaling(document, &drawing);
-        let mut item = |part: Part| {
-            let item = part.item(manner, losses);
-            item.map(|item| placed(item, &to_file))
+        let mut items = |part: Part| -> Vec<Item> {
+            let items = part.items(manner, losses).into_iter();
+            items.map(|item| placed(item, &to_file)).collect()
         };
         let mut changes = Changes::default();
         for (place, (id, old)) in sources.into_iter().zip(&old) {
@@ -132,7 +132,7 @@ impl Original {
                 None => heirs.take(old.name()),
             };
             let [index, shape] = place.ok_or("single points cannot be moved within the file")?;
-            let items = stand.into_iter().filter_map(&mut item);
+            let items = stand.into_iter().flat_map(&mut items);
             let shapes = items.flat_map(|item| item.shapes).collect();
             let change = changes.items.entry(index).or_insert_with(|| ItemChange {
                 name: old.name().to_owned(),
@@ -145,7 +145,7 @@ impl Original {
             }
         }
         let rest = heirs.rest();
-        changes.added = rest.iter().copied().filter_map(&mut item).collect();
+        changes.added = rest.iter().copied().flat_map(&mut items).collect();
         for part in rest {
             let (group, _) = part.marks();
             losses.add_group(part.name(), group, Group::default());
@@ -197,9 +197,9 @@ impl<'d> Part<'d> {
         }
     }
 
-    fn item(self, manner: &Manner, losses: &mut LossReport) -> Option<Item> {
+    fn items(self, manner: &Manner, losses: &mut LossReport) -> Vec<Item> {
         match self {
-            Self::Curve(curve) => Item::of_curve(curve, manner, losses),
+            Self::Curve(curve) => Vec::from_iter(Item::of_curve(curve, manner, losses)),
             Self::Reference(reference) => Item::of_reference(reference, manner, losses),
         }
     }

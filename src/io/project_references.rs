@@ -43,6 +43,9 @@ pub(super) struct ProjectReference {
     /// How much each point counts; of a B-spline the weights of its control points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     weights: Option<Vec<f64>>,
+    /// Whether no lines join the points.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    apart: Option<bool>,
     /// The degree of a B-spline, whose control points are the points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     degree: Option<usize>,
@@ -174,6 +177,7 @@ impl ProjectReference {
                 let points = points.map(|point| Coordinates::of(*point, planar));
                 written.points = Some(points.collect());
                 written.weights = list.weights().map(<[f64]>::to_vec);
+                written.apart = list.is_apart().then_some(true);
             }
             ReferenceForm::Nurbs(nurbs) => {
                 let planar = nurbs.is_planar();
@@ -245,9 +249,13 @@ impl ProjectReference {
             }
             (None, None, Some(points)) => {
                 let list = PointList::new(project_values::points("point", points)?)?;
-                ReferenceForm::Points(match self.weights {
+                let list = match self.weights {
                     Some(weights) => list.with_weights(weights)?,
                     None => list,
+                };
+                ReferenceForm::Points(match self.apart {
+                    Some(true) => list.apart(),
+                    _ => list,
                 })
             }
             _ => return Err(Problem::NoReference),

@@ -146,7 +146,9 @@ impl View {
             return;
         };
         let sampled = analysis.sampled();
-        outlined.curve.append_curve(sampled, view, &mut scene.curve);
+        if !analysis.has_points_apart() {
+            outlined.curve.append_curve(sampled, view, &mut scene.curve);
+        }
         let mut points = Vec::new();
         let chain = analysis.points();
         outlined.float.append_points(chain, view, &mut points);

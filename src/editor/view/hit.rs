@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::analysis::ReferenceAnalysis;
 use crate::document::{Curve, CurveId};
 use crate::editor::selection::VertexId;
 use crate::editor::view::density::{self, SeenChain};
@@ -218,8 +219,18 @@ impl<'a> Sight<'a> {
         let reach = reach * self.viewport().pixel();
         let sampled = self.view.analyses.sampled(id)?;
         let outlines = &self.view.pane.outlines.get(id)?.curve;
-        let (u, point, distance) = outlines.nearest(sampled, model, reach)?;
+        let (mut u, mut point, mut distance) = outlines.nearest(sampled, model, reach)?;
         let curve = id;
+        let reference = self.view.analyses.reference(id);
+        if reference.is_some_and(ReferenceAnalysis::has_points_apart) {
+            // Nothing is drawn between the points.
+            u = u.round();
+            point = self.viewport().flatten(sampled.curve.jet(u).point);
+            distance = point.distance(model);
+            if distance > reach {
+                return None;
+            }
+        }
         Some((distance, CurveHit { curve, u, point }))
     }
 

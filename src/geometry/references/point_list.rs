@@ -12,6 +12,7 @@ use crate::geometry::control_polygon::MAX_MAGNITUDE;
 pub struct PointList {
     points: Arc<[DVec3]>,
     weights: Option<Arc<[f64]>>,
+    is_apart: bool,
 }
 
 impl PointList {
@@ -30,6 +31,7 @@ impl PointList {
             None => Ok(Self {
                 points: points.into(),
                 weights: None,
+                is_apart: false,
             }),
         }
     }
@@ -56,6 +58,20 @@ impl PointList {
             weights: Some(weights.into()),
             ..self
         })
+    }
+
+    /// Take the points as single ones: no straight lines join them in drawings.
+    #[must_use]
+    pub fn apart(self) -> Self {
+        Self {
+            is_apart: true,
+            ..self
+        }
+    }
+
+    /// Whether the points are single ones, which no straight lines join in drawings.
+    pub fn is_apart(&self) -> bool {
+        self.is_apart
     }
 
     /// The weights of the points, if they differ.

@@ -78,7 +78,8 @@ fn drawing(
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
     let format = DXF.name;
-    let is_drawn = |reference: &Reference| drawn_shape(reference).is_some();
+    let shapes = |reference: &Reference| exchange::writing::shapes(&reference.curve);
+    let is_drawn = |reference: &Reference| shapes(reference).is_some();
     if document.curves().len() == 0 && !document.references().any(|(_, it)| is_drawn(it)) {
         return Err(WriteError::NoCurves { format });
     }
@@ -115,19 +116,21 @@ fn drawing(
         }
     }
     for (_, reference) in document.references() {
-        let Some(shape) = drawn_shape(reference) else {
+        let Some((_, shapes)) = shapes(reference) else {
             losses.add_reference(reference);
             continue;
         };
         let layer = layers.take_reference(reference);
-        match shape {
-            Shape::Polyline { points, closed } => {
-                polyline(&mut entities, &points, closed, &layer, &mut reach);
-                losses.add_point_weights(reference);
+        losses.add_point_weights(reference);
+        for shape in shapes {
+            match shape {
+                Shape::Polyline { points, closed } => {
+                    polyline(&mut entities, &points, closed, &layer, &mut reach);
+                }
+                Shape::Nurbs(nurbs) => spline(&mut entities, &nurbs, &layer, &mut reach),
+                Shape::Conic(conic) => ellipse(&mut entities, &conic, &layer, &mut reach),
+                Shape::Point(point) => single_point(&mut entities, point, &layer, &mut reach),
             }
-            Shape::Nurbs(nurbs) => spline(&mut entities, &nurbs, &layer, &mut reach),
-            Shape::Conic(conic) => ellipse(&mut entities, &conic, &layer, &mut reach),
-            Shape::Point(_) => {}
         }
     }
     let reach = (reach.low, reach.high);
@@ -172,18 +175,6 @@ fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossRe
     for &kind in kinds {
         let is_rational = curve.polygon.is_rational();
         losses.add_if(is_rational, curve, Loss::PolygonWeights { kind });
-    }
-}
-
-/// The shape of a reference that a drawing can hold: points, splines, and arcs of ellipses in the plane.
-fn drawn_shape(reference: &Reference) -> Option<Shape> {
-    let (_, shape) = exchange::writing::shape(&reference.curve)?;
-    match &shape {
-        Shape::Conic(Conic { centre, x, y, .. }) => {
-            let is_planar = [centre, x, y].iter().all(|it| it.z == 0.0);
-            is_planar.then_some(shape)
-        }
-        _ => Some(shape),
     }
 }
 
@@ -232,7 +223,7 @@ fn spline(writer: &mut Writer, nurbs: &Nurbs, layer: &str, reach: &mut Reach) {
     }
 }
 
-/// An arc of an ellipse in the plane, anticlockwise from its longer half-axis.
+/// An arc of an ellipse from its longer half-axis, anticlockwise about the normal of its plane: about z in the plane.
 fn ellipse(writer: &mut Writer, conic: &Conic, layer: &str, reach: &mut Reach) {
     let Conic {
         centre,
@@ -241,7 +232,8 @@ fn ellipse(writer: &mut Writer, conic: &Conic, layer: &str, reach: &mut Reach) {
         mut from,
         mut to,
     } = *conic;
-    if x.cross(y).z < 0.0 {
+    let is_flat = x.z == 0.0 && y.z == 0.0;
+    if is_flat && x.cross(y).z < 0.0 {
         (y, from, to) = (-y, -to, -from);
     }
     if y.length() > x.length() {
@@ -257,10 +249,18 @@ fn ellipse(writer: &mut Writer, conic: &Conic, layer: &str, reach: &mut Reach) {
     writer.text(100, "AcDbEllipse");
     writer.point(10, centre);
     writer.point(11, x);
-    writer.point(210, DVec3::Z);
+    let normal = if is_flat { DVec3::Z } else { x.cross(y) };
+    writer.point(210, normal.normalize_or(DVec3::Z));
     writer.number(40, y.length() / x.length());
     writer.number(41, from);
     writer.number(42, to);
+}
+
+fn single_point(writer: &mut Writer, point: DVec3, layer: &str, reach: &mut Reach) {
+    reach.add(&[point]);
+    writer.entity("POINT", layer);
+    writer.text(100, "AcDbPoint");
+    writer.point(10, point);
 }
 
 fn polyline(

@@ -12,11 +12,19 @@ mod writer;
 #[cfg(test)]
 mod tests;
 
-use crate::io::exchange::drawing::{Drawing, Unreadable};
+use crate::io::exchange::drawing::{Drawing, Item, Unreadable};
 
 /// Read all curves.
 pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     reader::read(bytes)
+}
+
+/// Say what an item is that JSON cannot hold.
+///
+/// # Errors
+/// What it is.
+pub fn holds(item: &Item) -> Result<(), String> {
+    writer::holds(item)
 }
 
 /// Write all curves as splines; the file has no name of its own.

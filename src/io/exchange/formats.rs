@@ -194,13 +194,12 @@ pub static CURVE_JSON: Format = Format {
     extensions: &["json"],
     draw: Some(curve_json::read),
     write: Some(|document, writing, losses| {
-        written(
-            document,
-            writing,
-            losses,
-            <[String]>::to_vec,
-            curve_json::write,
-        )
+        let manner = Manner {
+            written: Written::Knots(writing.polygon.unwrap_or(PolygonKind::Clamped)),
+            kept: <[String]>::to_vec,
+            holds: curve_json::holds,
+        };
+        drawn(document, &manner, losses, curve_json::write)
     }),
     ..NONE
 };

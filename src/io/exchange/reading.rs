@@ -234,7 +234,7 @@ impl Taken {
         match points.len() {
             0 => {}
             1 => self.tell("a single point is left out: a reference has two or more".to_owned()),
-            _ => self.add_points(points),
+            _ => self.add_points(points, name_of_all(chosen)),
         }
         let count = |items: &[&Item], space: Space| {
             let of_space = items.iter().filter(|item| item.space == space);
@@ -279,7 +279,8 @@ impl Taken {
         (self.reading, self.sources)
     }
 
-    fn add_points(&mut self, points: Vec<(DVec3, Group)>) {
+    /// Add a reference of single points, with the name that all of them have.
+    fn add_points(&mut self, points: Vec<(DVec3, Group)>, name: Option<&str>) {
         let (points, groups): (Vec<DVec3>, Vec<Group>) = points.into_iter().unzip();
         // Points of several groups are in none.
         let mut groups = groups.into_iter();
@@ -288,8 +289,8 @@ impl Taken {
             true => first,
             false => Group::default(),
         };
-        let name = self.names.free("points");
-        let list = PointList::new(points);
+        let name = self.names.free(name.unwrap_or("points"));
+        let list = PointList::new(points).map(PointList::apart);
         let curve = list.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
         match curve {
             Ok(curve) => {
@@ -306,19 +307,25 @@ impl Taken {
 #[derive(Default)]
 struct Names {
     taken: HashSet<String>,
+    /// The number behind each name at which to go on.
+    next: HashMap<String, usize>,
     /// How many items of each kind have no name of their own.
     counts: HashMap<Kind, usize>,
 }
 
 impl Names {
     fn free(&mut self, name: &str) -> String {
-        let mut free = name.to_owned();
-        let mut number = 2;
-        while !self.taken.insert(free.clone()) {
-            free = format!("{name} {number}");
-            number += 1;
+        if self.taken.insert(name.to_owned()) {
+            return name.to_owned();
         }
-        free
+        let number = self.next.entry(name.to_owned()).or_insert(2);
+        loop {
+            let numbered = format!("{name} {number}");
+            *number += 1;
+            if self.taken.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
     }
 
     fn of_kind(&mut self, kind: Kind) -> String {
@@ -327,6 +334,14 @@ impl Names {
         let name = format!("{} {count}", kind.name());
         self.free(&name)
     }
+}
+
+/// The name that all points have.
+fn name_of_all<'d>(items: &[&'d Item]) -> Option<&'d str> {
+    let points = items.iter().filter(|item| item.kind == Kind::Point);
+    let mut names = points.map(|item| item.name.as_deref());
+    let first = names.next()??;
+    names.all(|name| name == Some(first)).then_some(first)
 }
 
 fn scaled(shape: &Shape, factor: f64) -> Shape {

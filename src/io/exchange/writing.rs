@@ -4,7 +4,7 @@ use super::cubics::Cubics;
 use super::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
 use crate::document::{Curve, Document, Group, Reference};
 use crate::geometry::PolygonKind;
-use crate::geometry::references::{ReferenceCurve, ReferenceForm};
+use crate::geometry::references::{Nurbs as KnownNurbs, ReferenceCurve, ReferenceForm};
 use crate::io::error::WriteError;
 use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
@@ -54,8 +54,8 @@ impl Drawing {
             drawing.items.extend(Item::of_curve(curve, manner, losses));
         }
         for (_, reference) in document.references() {
-            let item = Item::of_reference(reference, manner, losses);
-            drawing.items.extend(item);
+            let items = Item::of_reference(reference, manner, losses);
+            drawing.items.extend(items);
         }
         let format = losses.format;
         match (drawing.items.is_empty(), losses.first_left_out()) {
@@ -82,40 +82,48 @@ impl Item {
             colour: curve.colour.map(|colour| colour.0),
             ..named(&curve.name, Kind::Spline, shape)
         };
-        item.held(manner, own, true, losses)
+        item.held(manner, own.losses, true, losses)
     }
 
-    /// What a reference becomes; `None` if the format, or any, cannot hold it.
+    /// What a reference becomes, single points an item each; nothing if the format, or any, cannot hold it.
     pub(in crate::io) fn of_reference(
         reference: &Reference,
         manner: &Manner,
         losses: &mut LossReport,
-    ) -> Option<Self> {
-        let Some((kind, shape)) = shape(&reference.curve) else {
+    ) -> Vec<Self> {
+        let Some((kind, shapes)) = shapes(&reference.curve) else {
             losses.add_reference(reference);
-            return None;
+            return Vec::new();
         };
         let mut own = LossReport::new(losses.format);
         report_group(&reference.name, &reference.group, manner.kept, &mut own);
-        let item = Self {
-            group: reference.group.names().to_vec(),
-            colour: reference.colour.map(|colour| colour.0),
-            ..named(&reference.name, kind, shape)
-        };
-        item.held(manner, own, false, losses)
+        let items = shapes.into_iter().filter_map(|shape| {
+            let named = |shape: Shape| Self {
+                group: reference.group.names().to_vec(),
+                colour: reference.colour.map(|colour| colour.0),
+                ..named(&reference.name, kind, shape)
+            };
+            let item = named(shape.clone());
+            let item = match (manner.holds)(&item) {
+                Ok(()) => item,
+                Err(_) => named(in_beziers(shape)),
+            };
+            item.held(manner, std::mem::take(&mut own.losses), false, losses)
+        });
+        items.collect()
     }
 
     /// The item with its own losses, or the loss of it as a whole.
     fn held(
         self,
         manner: &Manner,
-        own: LossReport,
+        own: Vec<(String, Loss)>,
         is_curve: bool,
         losses: &mut LossReport,
     ) -> Option<Self> {
         match (manner.holds)(&self) {
             Ok(()) => {
-                losses.losses.extend(own.losses);
+                losses.losses.extend(own);
                 Some(self)
             }
             Err(what) => {
@@ -144,6 +152,25 @@ impl Written {
             Self::Cubics(_) => spline(curve, PolygonKind::Bezier, losses),
             Self::Knots(kind) => spline(curve, kind, losses),
         }
+    }
+}
+
+/// A spline with every inner knot as multiple as its degree: the same curve as a chain of Béziers.
+fn in_beziers(shape: Shape) -> Shape {
+    let chain = match &shape {
+        Shape::Nurbs(nurbs) => nurbs.checked().ok().and_then(|it| it.bezier_chain()),
+        _ => None,
+    };
+    chain.map_or(shape, |chain| Shape::Nurbs(drawn(&chain)))
+}
+
+fn drawn(nurbs: &KnownNurbs) -> Nurbs {
+    Nurbs {
+        degree: nurbs.degree(),
+        knots: nurbs.knots().to_vec(),
+        points: nurbs.points().to_vec(),
+        weights: nurbs.weights().map(<[f64]>::to_vec),
+        periodic: nurbs.is_periodic(),
     }
 }
 
@@ -213,8 +240,20 @@ fn spline(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> Shape {
     })
 }
 
-/// A reference as other programs know it; `None` for formulas and spirals.
-pub(in crate::io) fn shape(curve: &ReferenceCurve) -> Option<(Kind, Shape)> {
+/// A reference as other programs know it: one shape, but for single points; `None` for formulas and spirals.
+pub(in crate::io) fn shapes(curve: &ReferenceCurve) -> Option<(Kind, Vec<Shape>)> {
+    let placement = curve.placement();
+    match curve.form() {
+        ReferenceForm::Points(list) if list.is_apart() => {
+            let points = list.points().iter();
+            let points = points.map(|point| Shape::Point(placement.point(*point)));
+            Some((Kind::Point, points.collect()))
+        }
+        _ => shape(curve).map(|(kind, shape)| (kind, vec![shape])),
+    }
+}
+
+fn shape(curve: &ReferenceCurve) -> Option<(Kind, Shape)> {
     let placement = curve.placement();
     match curve.form() {
         ReferenceForm::Points(list) => {
@@ -224,14 +263,10 @@ pub(in crate::io) fn shape(curve: &ReferenceCurve) -> Option<(Kind, Shape)> {
             Some((Kind::Polyline, Shape::Polyline { points, closed }))
         }
         ReferenceForm::Nurbs(nurbs) if curve.interval() == nurbs.interval() => {
-            let points = nurbs.points().iter();
-            let drawn = Nurbs {
-                degree: nurbs.degree(),
-                knots: nurbs.knots().to_vec(),
-                points: points.map(|point| placement.point(*point)).collect(),
-                weights: nurbs.weights().map(<[f64]>::to_vec),
-                periodic: nurbs.is_periodic(),
-            };
+            let mut drawn = drawn(nurbs);
+            for point in &mut drawn.points {
+                *point = placement.point(*point);
+            }
             Some((Kind::Spline, Shape::Nurbs(drawn)))
         }
         ReferenceForm::Analytic(form) => {

@@ -24,6 +24,14 @@ pub(super) fn write(drawing: &Drawing) -> Result<Vec<u8>, Unreadable> {
     Ok(text.into_bytes())
 }
 
+/// Say what an item is that JSON cannot hold.
+pub(super) fn holds(item: &Item) -> Result<(), String> {
+    match item.shapes.iter().all(|shape| spline(shape).is_some()) {
+        true => Ok(()),
+        false => Err("a point".to_owned()),
+    }
+}
+
 #[derive(Serialize)]
 struct Curve<'i> {
     name: Option<&'i str>,
