@@ -1,9 +1,6 @@
 //! `batten apply`: an operation on curves of a file.
 
 use std::process::ExitCode;
-use std::sync::mpsc::{self, RecvTimeoutError};
-use std::thread;
-use std::time::Duration;
 
 use anyhow::{Context, anyhow, bail};
 
@@ -11,7 +8,7 @@ use super::apply_arguments::misused;
 use super::ends::{Destination, Source};
 use super::items::{found, items, listed};
 use super::output::{self, Messages};
-use super::progress::Progress as Line;
+use super::progress::watched;
 use crate::document::{Curve, CurveId, Document, Edit, MergeError};
 use crate::geometry::Progress;
 use crate::geometry::expressions::LengthUnit;
@@ -23,9 +20,6 @@ const MISUSED: u8 = 2;
 
 /// The share of the work that the operation has; the rest is the proof of features.
 const RUN: f64 = 0.8;
-
-/// How often a long operation is asked how far it has come.
-const PAUSE: Duration = Duration::from_millis(100);
 
 /// What a run of an operation did.
 #[derive(Debug)]
@@ -274,26 +268,8 @@ impl Application {
 
     /// Run the operation on another thread, and tell how far it has come while it takes long.
     fn applied(&self, input: &Operands) -> Result<(Outcome, Report), OperationError> {
-        let progress = Progress::default();
-        thread::scope(|scope| {
-            let (sender, receiver) = mpsc::channel();
-            let shared = progress.clone();
-            scope.spawn(move || {
-                // The receiver waits below until it has this.
-                let _ = sender.send(self.outcome(input, &shared));
-            });
-            let mut line = Line::new();
-            loop {
-                match receiver.recv_timeout(PAUSE) {
-                    Ok(result) => return result,
-                    Err(RecvTimeoutError::Timeout) => {
-                        let percent = 100.0 * progress.done();
-                        line.tell(format_args!("{}: {percent:.0} %", self.operation.name));
-                    }
-                    // The thread panicked, and so does the end of its scope.
-                    Err(RecvTimeoutError::Disconnected) => return Err(OperationError::Cancelled),
-                }
-            }
+        watched(self.operation.name, |progress| {
+            self.outcome(input, progress)
         })
     }
 

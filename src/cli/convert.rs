@@ -5,9 +5,10 @@ use anyhow::{Context, bail};
 use super::ends::{Destination, Source};
 use super::export_arguments::ExportArguments;
 use super::output::{self, Messages};
+use super::progress::watched;
 use crate::document::Document;
+use crate::geometry::PolygonKind;
 use crate::geometry::expressions::LengthUnit;
-use crate::geometry::{PolygonKind, Progress};
 use crate::io::examples::Example;
 use crate::io::{Export, ExportChoice};
 use crate::operations::{FloatRequest, floated, lowered};
@@ -41,7 +42,9 @@ impl Conversion {
             degree: None,
             tolerance: self.tolerance,
         };
-        let (made, told) = floated(&document, request, &Progress::default())?;
+        let (made, told) = watched("float polygons", |progress| {
+            floated(&document, request, progress)
+        })?;
         told.iter().for_each(|line| output::message(line));
         Ok(made)
     }
@@ -51,7 +54,9 @@ impl Conversion {
         let Some(most) = self.most_degree.or(most) else {
             return Ok(document);
         };
-        let (lower, told) = lowered(&document, most, self.tolerance, &Progress::default())?;
+        let (lower, told) = watched("lower degrees", |progress| {
+            lowered(&document, most, self.tolerance, progress)
+        })?;
         for it in told {
             output::message(&it.to_string());
         }

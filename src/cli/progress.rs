@@ -2,7 +2,12 @@
 
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Stderr, Write};
+use std::panic::resume_unwind;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
 use std::time::{Duration, Instant};
+
+use crate::geometry::Progress as Done;
 
 /// What takes less time is not told.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -15,6 +20,37 @@ const ELSEWHERE: Duration = Duration::from_secs(10);
 
 /// Goes back to the start of a terminal's line and empties it.
 const EMPTY_LINE: &str = "\r\x1b[2K";
+
+/// How often a long computation is asked how far it has come.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// Compute something on another thread, and tell how far it has come while it takes long.
+pub(super) fn watched<T: Send>(name: &str, compute: impl FnOnce(&Done) -> T + Send) -> T {
+    let done = Done::default();
+    thread::scope(|scope| {
+        let (sender, receiver) = mpsc::channel();
+        let shared = done.clone();
+        let thread = scope.spawn(move || {
+            // The receiver waits below until it has this.
+            let _ = sender.send(compute(&shared));
+        });
+        let mut line = Progress::new();
+        loop {
+            match receiver.recv_timeout(PAUSE) {
+                Ok(result) => return result,
+                Err(RecvTimeoutError::Timeout) => {
+                    line.tell(format_args!("{name}: {:.0} %", 100.0 * done.done()));
+                }
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+        }
+        // Nothing was sent: the thread panicked.
+        match thread.join() {
+            Err(panic) => resume_unwind(panic),
+            Ok(()) => unreachable!("the result is sent before the thread ends"),
+        }
+    })
+}
 
 /// A line that tells how far a computation has come: renewed in place on a terminal, repeated now
 /// and then elsewhere.
