@@ -134,14 +134,14 @@ enum Command {
         #[arg(long)]
         to_float: bool,
         /// Largest deviation of lower degrees, float polygons and cubic Béziers; default: 1e-4 of the size
-        #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
+        #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = tolerance)]
         tolerance: Option<f64>,
         /// Write so many points on the curve, not its vertices, as `points` does
-        #[arg(long, value_name = "N", value_parser = count,
+        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count,
             conflicts_with_all = ["polygon", "nearing", "tolerance"])]
         points: Option<usize>,
         /// Write as few points on the curve as keep the polyline through them this near to it
-        #[arg(long, value_name = "T", value_parser = tolerance,
+        #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = tolerance,
             conflicts_with_all = ["points", "polygon", "nearing", "tolerance"])]
         chord: Option<f64>,
         #[command(flatten)]
@@ -171,10 +171,10 @@ enum Command {
         #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::writable()))]
         to_format: Option<&'static Format>,
         /// The number of points, both ends of the curve among them
-        #[arg(long, value_name = "N", value_parser = count)]
+        #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
         count: Option<usize>,
         /// As few points as keep the polyline through them within this distance of the curve
-        #[arg(long, value_name = "T", value_parser = tolerance, conflicts_with = "count")]
+        #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = tolerance, conflicts_with = "count")]
         tolerance: Option<f64>,
         /// How points are spread (default arc-length); cosine: densely at the ends and the nose of a section
         #[arg(long, value_parser = spacing_parser())]
@@ -201,7 +201,7 @@ enum Command {
         #[arg(long, value_name = "NAME")]
         with: Option<String>,
         /// The largest distance that is allowed: beyond it the exit code is 1, and whiskers are counted
-        #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
+        #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = tolerance)]
         limit: Option<f64>,
         /// The format to read both, whatever the files' extensions
         #[arg(long, value_name = "FORMAT", value_parser = format_parser(formats::readable()))]

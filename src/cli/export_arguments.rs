@@ -24,7 +24,7 @@ pub(super) struct ExportArguments {
     #[arg(long, value_name = "KIND", value_parser = polygon_parser())]
     with_polygon: Vec<PolygonKind>,
     /// Draw a polyline of points on each curve, within this distance of it
-    #[arg(long, value_name = "T", value_parser = tolerance)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = tolerance)]
     with_points: Option<f64>,
     /// Leave the curves out: only their polygons and points, and references
     #[arg(long)]
@@ -33,7 +33,7 @@ pub(super) struct ExportArguments {
     #[arg(long, value_name = "UNIT", value_parser = unit_parser())]
     unit: Option<LengthUnit>,
     /// How many times larger everything is in the file
-    #[arg(long, value_name = "FACTOR", value_parser = scale)]
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true, value_parser = scale)]
     scale: Option<f64>,
 }
 
