@@ -399,7 +399,7 @@ fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>, FileProblem> {
     let file = File::open(path).map_err(FileProblem::system("read"))?;
     let metadata = file.metadata().map_err(FileProblem::system("read"))?;
     if metadata.is_dir() {
-        return Err(FileProblem::NotAFile);
+        return Err(FileProblem::IsFolder);
     }
     if metadata.len() > most {
         return Err(FileProblem::TooLarge(most));
@@ -436,8 +436,11 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
 }
 
 fn check_writable(path: &Path, metadata: Metadata) -> Result<Metadata, FileProblem> {
+    if metadata.is_dir() {
+        return Err(FileProblem::IsFolder);
+    }
     if !metadata.is_file() {
-        return Err(FileProblem::NotAFile);
+        return Err(FileProblem::IsDevice);
     }
     // A folder that may be written to lets a file be replaced that may not be.
     let opened = File::options().write(true).open(path);

@@ -531,9 +531,12 @@ pub enum FileProblem {
     /// The folder that it would be in is not there.
     #[error("the folder {} does not exist: create it first", shown_path(.0))]
     NoFolder(PathBuf),
-    /// It is a folder or a device.
-    #[error("this is not a file")]
-    NotAFile,
+    /// It is a folder.
+    #[error("this is a folder, not a file")]
+    IsFolder,
+    /// It is a device.
+    #[error("this is a device, not a file")]
+    IsDevice,
     /// It is protected against writing.
     #[error("the file is read-only: save under another name, or allow writing to it")]
     ReadOnly,

@@ -156,11 +156,17 @@ impl Format {
         // Binary files have no lines.
         let is_binary = bytes.iter().take(TOLD_BY).any(|byte| *byte == 0);
         match draw(bytes) {
-            Ok(drawing) => Ok(Drawing {
-                is_binary,
-                is_unitless: self.file_unit == FileUnit::None,
-                ..drawing
-            }),
+            Ok(mut drawing) => {
+                if drawing.is_empty() && drawing.remarks.is_empty() {
+                    let none = format!("the {} has no curve and no point", self.name);
+                    drawing.remarks.push(none);
+                }
+                Ok(Drawing {
+                    is_binary,
+                    is_unitless: self.file_unit == FileUnit::None,
+                    ..drawing
+                })
+            }
             Err(Unreadable { at, reason }) => Err(match (at, is_binary) {
                 (Some(at), false) => Place::line(at as usize).problem(Problem::Drawing(reason)),
                 (Some(at), true) => Problem::Drawing(format!("byte {at}: {reason}")).into(),

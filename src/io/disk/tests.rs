@@ -53,8 +53,16 @@ fn what_cannot_be_read_or_written_is_named() {
     fs::create_dir(folder.path().join("folder.csv")).unwrap();
     fs::write(folder.path().join("bad.batten"), "{").unwrap();
     check(read("gone.batten"), "gone.batten", "cannot read the file: ");
-    check(read("folder.csv"), "folder.csv", "this is not a file");
-    check(write("folder.csv"), "folder.csv", "this is not a file");
+    check(
+        read("folder.csv"),
+        "folder.csv",
+        "this is a folder, not a file",
+    );
+    check(
+        write("folder.csv"),
+        "folder.csv",
+        "this is a folder, not a file",
+    );
     check(
         read("a.docx"),
         "a.docx",

@@ -353,6 +353,11 @@ impl Drawing {
         drawing
     }
 
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty() && self.other.is_empty()
+    }
+
     /// Count something that is not a curve.
     pub fn count_other(&mut self, kind: &str, at: u64) {
         let is_full = self.other.len() >= MOST_KINDS;
