@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::amount::Amount;
 use super::editable::{check_measurable, open};
-use super::end_change::{is_another, warnings_of_change};
+use super::end_change::{is_another, refine_first, warnings_of_change};
 use super::error::OperationError;
 use super::features::{gains_cusp, proved, remark_on_lost_inflections};
 use super::inputs::Inputs;
@@ -268,7 +268,10 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             let features = proved([before, &polygon], progress)?;
             let cusp = gains_cusp([before, &polygon], &features);
             let cusp_told = cusp.then(|| {
-                "A bend is nearly a cusp now: choose another way in “Disturb least”, or refine first".to_owned()
+                let refine = refine_first(before);
+                format!(
+                    "A bend is nearly a cusp now: choose another way in “Disturb least”, or {refine}"
+                )
             });
             let mut warnings: Vec<String> = cusp_told.into_iter().collect();
             warnings.extend(warnings_of_change(curve, &polygon, turned.as_deref())?);
@@ -574,6 +577,7 @@ fn step_by_step(
 
 /// Say why a joint correction does not reach the targets.
 fn why_missed(curve: &Curve, polygon: &FloatPolygon, left: f64) -> String {
+    let refine = refine_first(&curve.polygon);
     let is_backward = |(end, target): &(End, EndTarget)| {
         let along = polygon.end_jet(*end).first;
         target.direction.is_some_and(|it| it.dot(along) < 0.0)
@@ -581,13 +585,13 @@ fn why_missed(curve: &Curve, polygon: &FloatPolygon, left: f64) -> String {
     if let Some((end, _)) = curve.targets.list().into_iter().find(is_backward) {
         let name = end.name();
         return format!(
-            "The curve would run backward through its {name}: refine first, or ask for less there"
+            "The curve would run backward through its {name}: {refine}, or ask for less there"
         );
     }
     match cusp(curve, polygon) {
         Some(cusp) => cusp,
         None if left <= ROUNDING * polygon.size() => ROUNDING_LEAVES_MORE.to_owned(),
-        None => "The targets are missed: refine first, or ask for less".to_owned(),
+        None => format!("The targets are missed: {refine}, or ask for less"),
     }
 }
 

@@ -23,6 +23,12 @@ const ANOTHER: f64 = 0.1;
 /// A target direction that turns an end by more than this angle seems to point the wrong way.
 const BACK: f64 = 0.6 * PI;
 
+/// Advise to refine a polygon before its ends are corrected: so many vertices more fade a correction out near each end.
+pub(super) fn refine_first(polygon: &FloatPolygon) -> String {
+    let count = polygon.vertices().len() + 2 * polygon.degree();
+    format!("refine to {count} vertices first")
+}
+
 /// Say where a correction moves the curve far, turns it over, as `turned` says, or leads it out of its plane.
 ///
 /// # Errors
@@ -34,7 +40,8 @@ pub(super) fn warnings_of_change(
 ) -> Result<Vec<String>, OperationError> {
     let before = &curve.polygon;
     let mut warnings = Vec::new();
-    let advice = "refine first, or hold vertices with “Also hold vertices” (--locked)";
+    let refine = refine_first(before);
+    let advice = format!("{refine}, or hold vertices with “Also hold vertices” (--locked)");
     if let Some([moved, shift]) = moved_far(curve, after)? {
         let [moved, shift] = [moved, shift].map(|length| significant(length, 3));
         warnings.push(format!(

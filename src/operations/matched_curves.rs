@@ -1,6 +1,7 @@
 //! What matches do to curves: to those that are matched anew, and to those that follow others.
 
-use super::feature_change::feature_change;
+use super::end_change::refine_first;
+use super::feature_change::{changed_features, feature_counts};
 use super::outcome::{Deviation, Outcome};
 use crate::document::{CurveId, Document, Edit, quoted};
 use crate::geometry::distance::SideDeviation;
@@ -34,18 +35,21 @@ pub fn matched(curves: &[CurveId], documents: [&Document; 2]) -> (String, bool) 
         let [before, after] = polygons(*id, documents)?;
         let moved = moved(before, after).filter(|_| !stays(before, after))?;
         let name = quoted(documents[1].name(*id)?);
-        let changes = changes(before, after);
-        let advice = match changes.is_empty() {
-            true => "",
-            false => ": match up to less, or refine first",
+        let Changes {
+            told: changed,
+            bends: is_bent,
+        } = changes(before, after);
+        let advice = match is_bent {
+            false => String::new(),
+            true => format!(": match up to less, or {}", refine_first(before)),
         };
-        bends |= !changes.is_empty();
+        bends |= is_bent;
         let mut told = vec![format!("The match moves {name} by up to {moved}")];
-        told.extend(changes);
+        told.extend(changed);
         if !are_compared(before, after) {
             told.push("features not compared".to_owned());
         }
-        Some(told.join("; ") + advice)
+        Some(told.join("; ") + &advice)
     });
     let told = told.collect::<Vec<_>>().join("\n");
     (told, bends)
@@ -76,11 +80,10 @@ pub fn followers(documents: [&Document; 2], matched: &[CurveId]) -> Vec<Follower
             return None;
         }
         let moved = moved(before, after)?;
-        let changes = changes(before, after);
+        let Changes { told, bends } = changes(before, after);
         let name = quoted(&curve.name);
-        let bends = !changes.is_empty();
         let parts = std::iter::once(format!("{name} follows, by up to {moved}"));
-        let parts: Vec<String> = parts.chain(changes).collect();
+        let parts: Vec<String> = parts.chain(told).collect();
         Some(Follower {
             text: parts.join("; "),
             bends,
@@ -201,10 +204,16 @@ fn moved(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
 }
 
 /// What of a curve's character changes: its features, its smallest radius, whether it is planar.
-fn changes(before: &FloatPolygon, after: &FloatPolygon) -> Vec<String> {
-    let features = are_compared(before, after)
-        .then(|| feature_change(before, after))
-        .flatten();
+struct Changes {
+    told: Vec<String>,
+    /// Whether it gets more features, bends more sharply, or leaves its plane: fewer features are a gain.
+    bends: bool,
+}
+
+fn changes(before: &FloatPolygon, after: &FloatPolygon) -> Changes {
+    let features = are_compared(before, after).then(|| [before, after].map(feature_counts));
+    let adds = features.is_some_and(|[before, now]| (0..2).any(|kind| now[kind] > before[kind]));
+    let features = features.and_then(changed_features);
     let radii = [before, after].map(|polygon| {
         let whole = [0.0, polygon.segments() as f64];
         largest_curvature(polygon, whole).recip()
@@ -222,5 +231,8 @@ fn changes(before: &FloatPolygon, after: &FloatPolygon) -> Vec<String> {
     });
     let leaves = before.is_planar() && !after.is_planar();
     let leaves = leaves.then(|| "it leaves its plane".to_owned());
-    features.into_iter().chain(radii).chain(leaves).collect()
+    Changes {
+        bends: adds || radii.is_some() || leaves.is_some(),
+        told: features.into_iter().chain(radii).chain(leaves).collect(),
+    }
 }

@@ -300,8 +300,17 @@ fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
             action = Some(EndFitAction::PickFromCurve);
         }
         let mut live = matched.is_some() || report.live;
-        let keep = ui.add(Checkbox::new(&mut live, "Keep matched"));
-        let tooltip = "Match the end again whenever the other curve changes";
+        let (label, tooltip) = match matched {
+            Some(_) => (
+                "Keep matched",
+                "Match the end again whenever the other curve changes",
+            ),
+            None => (
+                "Keep what is picked matched",
+                "Match the end to a picked place again whenever that curve changes",
+            ),
+        };
+        let keep = ui.add(Checkbox::new(&mut live, label));
         if keep.on_hover_text(tooltip).clicked() {
             action = Some(EndFitAction::KeepMatched(live));
         }
