@@ -67,8 +67,10 @@ impl ItemDrag {
             |shape: Option<&dyn crate::geometry::ParametricCurve>| Some(shape?.jet(u).point);
         let ends = place(context.before.shape(curve)).zip(place(context.document.shape(curve)));
         let is_planar = context.before.shape(curve).is_some_and(|it| it.is_planar());
+        let lag = ends.and_then(|(from, to)| self.drag.lag(curve, [from, to], is_planar, context));
+        let remark = lag.map(str::to_owned);
         let readout =
-            ends.map(|(from, to)| self.drag.readout([from, to], !is_planar, None, context));
+            ends.map(|(from, to)| self.drag.readout([from, to], !is_planar, remark, context));
         self.drag.marks(readout, context)
     }
 

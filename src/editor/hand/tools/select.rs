@@ -213,7 +213,7 @@ impl Tool for SelectTool {
                 } else if context.document.is_empty() {
                     "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
                 } else {
-                    "Drag a vertex or the curve, after a double-click the whole curve; a box selects".into()
+                    "Drag vertices or the curve; arrow keys nudge it, a double-click takes it whole".into()
                 }
             }
         }
@@ -609,7 +609,7 @@ fn nudge(key: Key, context: &Context) -> Vec<Effect> {
         _ => context.nudge_step,
     };
     let items = Transformed::of(context);
-    if context.selection.is_of_whole_items() || !items.can_stretch() {
+    if context.selection.is_empty() || !items.can_stretch() {
         return nudge_items(&items, direction * step, context);
     }
     let vertices = context.places(context.selection.vertices());
