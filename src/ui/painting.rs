@@ -36,6 +36,9 @@ const SQUARE: f32 = 3.5;
 /// More points of a list than this are marked by smaller discs.
 const CROWD: usize = 200;
 
+/// The strength of the teeth of a comb in the colour of its curve.
+const TEETH_STRENGTH: f32 = 0.35;
+
 /// How strong the evolute is beside the curve: it runs over all of the canvas.
 const EVOLUTE_STRENGTH: f32 = 0.35;
 
@@ -132,10 +135,15 @@ impl Brush<'_> {
         let tokens = self.tokens;
         let evolute = fade(tokens.evolute).gamma_multiply(EVOLUTE_STRENGTH);
         self.evolute(&curve.evolute, evolute);
-        // Combs of several curves are compared: they fade as the curves do.
+        // Combs of several curves are compared: they fade as the curves do, and have the colours of the others.
+        let own = tokens.of_item(curve.id, curve.colour, curve.is_reference);
+        let [teeth, envelope] = match curve.active {
+            true => [tokens.comb_teeth, tokens.comb],
+            false => [own.gamma_multiply(TEETH_STRENGTH), own],
+        };
         let comb = |colour: Color32| colour.gamma_multiply(own_strength(curve));
-        self.hairs(&curve.teeth, 1.0, comb(tokens.comb_teeth));
-        self.chain(&curve.comb, Stroke::new(1.0, comb(tokens.comb)));
+        self.hairs(&curve.teeth, 1.0, comb(teeth));
+        self.chain(&curve.comb, Stroke::new(1.0, comb(envelope)));
         self.legs(&curve.clamped, true, Stroke::new(1.0, fade(tokens.clamped)));
         let float = if curve.active { 1.25 } else { 1.0 };
         self.legs(&curve.float, false, Stroke::new(float, fade(tokens.float)));
