@@ -119,6 +119,42 @@ fn a_match_is_picked_shown_and_removed() {
 }
 
 #[test]
+fn a_picked_target_has_what_its_level_asks_for() {
+    let mut window = window();
+    let source = document(&window)
+        .curves()
+        .last()
+        .expect("a curve")
+        .1
+        .clone();
+    click(&mut window, "Pick from curve");
+    click_on(&mut window, source.polygon.end_jet(End::Finish).point);
+    let parts = |window: &Window| {
+        let target = curve(window).targets.start.expect("a target");
+        [
+            target.direction.is_some(),
+            target.curvature.is_some(),
+            target.slope.is_some(),
+        ]
+    };
+    assert_eq!(parts(&window), [true, false, false]);
+    for (level, expected) in [
+        ("G3", [true, true, true]),
+        ("G0", [false, false, false]),
+        ("G2", [true, true, false]),
+    ] {
+        click(&mut window, level);
+        assert_eq!(parts(&window), expected, "{level}");
+    }
+    assert_eq!(document(&window).matches().len(), 0);
+    // A target that was changed by hand since is not picked again.
+    click(&mut window, "Flip direction");
+    let flipped = curve(&window).targets;
+    click(&mut window, "G3");
+    assert_eq!(curve(&window).targets, flipped);
+}
+
+#[test]
 fn a_joint_is_listed_gone_to_and_matched() {
     let whole = wave(20, 5);
     let cut = |from: f64, to: f64| whole.trimmed(from, to, 0).expect("a part").polygon;

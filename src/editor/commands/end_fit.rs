@@ -12,6 +12,7 @@ use crate::operations::{Operation, Value, correct_ends, rotate_end, translate_en
 
 const CHANGE_MATCH: &str = "Change match";
 const FLIP_MATCH: &str = "Flip match";
+const CHANGE_TARGET: &str = "Change target";
 
 /// The steps that match an end.
 const MATCHING: [&str; 3] = [MATCH_END, CHANGE_MATCH, FLIP_MATCH];
@@ -84,6 +85,12 @@ fn set_up(
     let document = history.document();
     let end = settings.end;
     let matched = document.match_of(id, end).copied();
+    // What the target was picked from, if it still is that.
+    let picked = settings.picked.filter(|picked| {
+        let is_own = (picked.curve, picked.end) == (id, end);
+        let is_there = picked.target(document).is_some();
+        is_own && matched.is_none() && curve.targets.get(end).is_some() && is_there
+    });
     match action {
         EndFitAction::Choose(end) => {
             settings.end = end;
@@ -109,15 +116,25 @@ fn set_up(
             return Ok(None);
         }
         EndFitAction::SetContinuity(continuity) => {
-            settings.continuity = continuity;
-            let Some(matched) = matched else {
-                return Ok(None);
-            };
-            let changed = EndMatch {
+            let old = std::mem::replace(&mut settings.continuity, continuity);
+            let at = |continuity: Continuity, matched: EndMatch| EndMatch {
                 continuity,
                 ..matched
             };
-            return Ok(Some((CHANGE_MATCH, rematch(history, changed))));
+            if let Some(matched) = matched {
+                let edits = rematch(history, at(continuity, matched));
+                return Ok(Some((CHANGE_MATCH, edits)));
+            }
+            // A target that is as it was picked gets what the place has up to the level.
+            let target = |level: Continuity| at(level, picked?).target(document);
+            let is_as_picked = curve.targets.get(end) == target(old);
+            let target = target(continuity).filter(|_| is_as_picked);
+            let set = target.map(|target| Edit::SetTarget {
+                curve: id,
+                end,
+                target: Some(target),
+            });
+            return Ok(set.map(|set| (CHANGE_TARGET, vec![set])));
         }
         EndFitAction::KeepMatched(live) => {
             settings.live = live;
@@ -126,11 +143,6 @@ fn set_up(
                 return Ok(matched.map(|_| ("Remove match", vec![remove])));
             }
             // A target that was picked before is matched now.
-            let picked = settings.picked.filter(|picked| {
-                let is_own = (picked.curve, picked.end) == (id, end);
-                is_own && matched.is_none() && curve.targets.get(end).is_some()
-            });
-            let picked = picked.filter(|picked| picked.target(document).is_some());
             let kept = picked.map(|picked| EndMatch {
                 continuity: settings.continuity,
                 ..picked
