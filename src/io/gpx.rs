@@ -7,7 +7,7 @@ use super::format::{FileUnit, Format};
 use super::reading::Reading;
 use super::table_points::{PointReader, Row};
 use super::tangent_plane::position;
-use super::text::text;
+use super::text::{Lines, text};
 use crate::document::escaped;
 use crate::geometry::expressions::LengthUnit;
 
@@ -48,6 +48,7 @@ fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
         };
         place.problem(Problem::Xml(escaped(&error.to_string())))
     })?;
+    let lines = Lines::of(document.input_text());
     let root = document.root_element();
     if root.tag_name().name() != "gpx" {
         return Err(Problem::NotGpx(root.tag_name().name().to_owned()).into());
@@ -55,13 +56,13 @@ fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     let mut paths = Vec::new();
     for path in root.children() {
         match path.tag_name().name() {
-            "rte" => paths.push(Path::of(path, path, "rtept")?),
+            "rte" => paths.push(Path::of(path, path, "rtept", &lines)?),
             "trk" => {
                 let segments = path
                     .children()
                     .filter(|it| it.tag_name().name() == "trkseg");
                 for segment in segments {
-                    paths.push(Path::of(path, segment, "trkpt")?);
+                    paths.push(Path::of(path, segment, "trkpt", &lines)?);
                 }
             }
             _ => {}
@@ -84,24 +85,26 @@ fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
 
 impl Path {
     /// Take the points of a track's segment or of a route, which has the name.
-    fn of(named: Node, path: Node, points: &str) -> Result<Self, ReadError> {
+    fn of(named: Node, path: Node, points: &str, lines: &Lines) -> Result<Self, ReadError> {
         let mut names = named.children().filter(|it| it.tag_name().name() == "name");
         let name = names.next().and_then(|it| it.text()).map(str::trim);
         let points = path.children().filter(|it| it.tag_name().name() == points);
         Ok(Self {
-            line: line(path),
+            line: line(path, lines),
             name: name.filter(|name| !name.is_empty()).map(str::to_owned),
-            rows: points.map(row).collect::<Result<_, _>>()?,
+            rows: points
+                .map(|point| row(point, lines))
+                .collect::<Result<_, _>>()?,
         })
     }
 }
 
-fn line(node: Node) -> usize {
-    node.document().text_pos_at(node.range().start).row as usize
+fn line(node: Node, lines: &Lines) -> usize {
+    lines.number(node.range().start)
 }
 
-fn row(point: Node) -> Result<Row, ReadError> {
-    let line = line(point);
+fn row(point: Node, lines: &Lines) -> Result<Row, ReadError> {
+    let line = line(point, lines);
     let degrees = |attribute: &str| point.attribute(attribute)?.trim().parse().ok();
     let point = position(degrees("lat"), degrees("lon"));
     let point = point.map_err(|problem| Place::line(line).problem(problem))?;

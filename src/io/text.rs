@@ -23,3 +23,40 @@ pub(super) fn text(bytes: &[u8]) -> Result<&str, ReadError> {
     }
     Ok(text)
 }
+
+/// Where the lines of a text begin.
+pub(super) struct Lines(Vec<usize>);
+
+impl Lines {
+    /// Find the lines of a text.
+    pub(super) fn of(text: &str) -> Self {
+        Self(text.match_indices('\n').map(|(at, _)| at + 1).collect())
+    }
+
+    /// The number of the line that holds a byte, from 1.
+    pub(super) fn number(&self, position: usize) -> usize {
+        self.0.partition_point(|start| *start <= position) + 1
+    }
+
+    /// Where a line begins, by its number from 1; `None` if there is none.
+    pub(super) fn start(&self, number: usize) -> Option<usize> {
+        match number {
+            0 | 1 => Some(0),
+            _ => self.0.get(number - 2).copied(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_in_lines() {
+        let lines = Lines::of("a\nbc\n\nd");
+        let numbers = [0, 1, 2, 3, 4, 5, 6, 9].map(|at| lines.number(at));
+        assert_eq!(numbers, [1, 1, 2, 2, 2, 3, 4, 4]);
+        let starts = [0, 1, 2, 3, 4, 5].map(|number| lines.start(number));
+        assert_eq!(starts, [Some(0), Some(0), Some(2), Some(5), Some(6), None]);
+    }
+}

@@ -5,6 +5,7 @@
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::io::exchange::drawing::Unreadable;
+use crate::io::text::Lines;
 
 /// The most elements inside one another; drawings have about ten, and each costs a copy of its namespaces.
 const DEPTH_LIMIT: usize = 256;
@@ -35,8 +36,7 @@ const NODE_SIZE: usize = 88;
 /// The text of an XML file.
 pub(super) struct Source {
     text: String,
-    /// Where each line but the first begins.
-    lines: Vec<usize>,
+    lines: Lines,
     /// What was repaired.
     pub(super) remarks: Vec<String>,
 }
@@ -70,7 +70,7 @@ impl Source {
 
     /// Get the line of a byte, from 1.
     pub(super) fn line(&self, position: usize) -> u64 {
-        self.lines.partition_point(|&start| start <= position) as u64 + 1
+        self.lines.number(position) as u64
     }
 
     /// Get the line of an element, from 1.
@@ -85,7 +85,7 @@ impl Source {
     }
 
     fn of(text: String, remarks: Vec<String>) -> Self {
-        let lines = text.match_indices('\n').map(|(at, _)| at + 1).collect();
+        let lines = Lines::of(&text);
         Self {
             text,
             lines,
@@ -178,14 +178,8 @@ impl Source {
             return self.text.len();
         }
         let place = error.pos();
-        let start = match place.row {
-            0 | 1 => 0,
-            row => self
-                .lines
-                .get(row as usize - 2)
-                .copied()
-                .unwrap_or(self.text.len()),
-        };
+        let start = self.lines.start(place.row as usize);
+        let start = start.unwrap_or(self.text.len());
         let line = self.text.get(start..).unwrap_or_default();
         let before: usize = line
             .chars()
