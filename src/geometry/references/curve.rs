@@ -1,5 +1,6 @@
 //! A reference curve: a form over an interval, placed.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -16,6 +17,14 @@ use crate::geometry::vector;
 
 /// Samples by which the turning of a curve is estimated.
 const SAMPLES: usize = 256;
+
+/// The same of a curve that turns one way, by a turn at most, and so by less than half a turn between two of them: what it
+/// turns between them adds up to all of it.
+const ONE_WAY_SAMPLES: usize = 16;
+const WHOLE_TURN: f64 = 1.01 * TAU;
+
+/// The share of a piece by which rounding adds no other piece.
+const ROUNDING: f64 = 1e-9;
 
 /// A piece may turn by about so much.
 const PIECE_TURNING: f64 = std::f64::consts::FRAC_PI_4;
@@ -84,7 +93,7 @@ impl ReferenceCurve {
         let Some(turning) = curve.sampled_turning()? else {
             return Err(ReferenceError::OnePoint);
         };
-        let pieces = (turning / PIECE_TURNING).ceil() as usize;
+        let pieces = (turning / PIECE_TURNING - ROUNDING).ceil() as usize;
         curve.pieces = pieces.clamp(*PIECES.start(), *PIECES.end());
         if let ReferenceForm::Nurbs(nurbs) = &curve.form {
             curve.breaks = nurbs.breaks([from, to]).into();
@@ -179,8 +188,16 @@ impl ReferenceCurve {
         let [from, to] = self.interval;
         let mut last: Option<DVec3> = None;
         let (mut turning, mut moves) = (0.0, false);
-        for index in 0..=SAMPLES {
-            let share = index as f64 / SAMPLES as f64;
+        let samples = match &self.form {
+            ReferenceForm::Analytic(form)
+                if form.half_axes().is_some() && to - from <= WHOLE_TURN =>
+            {
+                ONE_WAY_SAMPLES
+            }
+            _ => SAMPLES,
+        };
+        for index in 0..=samples {
+            let share = index as f64 / samples as f64;
             let t = from * (1.0 - share) + to * share;
             let values = self.derivatives(t, 1);
             let finite =

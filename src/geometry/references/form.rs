@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::error::ReferenceError;
 use super::formula::Formula;
+use super::formulas::{CIRCLE, ELLIPSE};
 use super::frame::Frame;
 use super::kind::{EVERYWHERE, ReferenceKind};
 use super::nurbs::Nurbs;
@@ -70,7 +71,23 @@ impl AnalyticForm {
         if !(from..=to).contains(&t) {
             return vec![DVec3::NAN; order + 1];
         }
+        if let Some([a, b]) = self.half_axes().filter(|_| order < 3) {
+            let (sin, cos) = t.sin_cos();
+            let all = [[cos, sin], [-sin, cos], [-cos, -sin]];
+            let all = all.map(|[x, y]| DVec3::new(a * x, b * y, 0.0));
+            return all.into_iter().take(order + 1).collect();
+        }
         PowerSeries::derivatives(self.kind.series(&self.values, t, order).each_ref())
+    }
+
+    /// The half axes of a circle or an ellipse, which turn one way alone, by a turn for each 2π of their parameter.
+    pub(super) fn half_axes(&self) -> Option<[f64; 2]> {
+        match (self.kind.name, self.values.first(), self.values.last()) {
+            (name, Some(a), Some(b)) if [CIRCLE.name, ELLIPSE.name].contains(&name) => {
+                Some([*a, *b])
+            }
+            _ => None,
+        }
     }
 
     /// Bound the coordinates for bounds of the series of t.
