@@ -20,10 +20,14 @@ use crate::io::exchange::spending::most_items;
 const DEPTH_LIMIT: usize = 64;
 /// What all files may cost: one for an element and for each four bytes of attributes, which hold at least a
 /// point.
-const COST: usize = 2_000_000;
+const COST: usize = 400_000;
 
 /// The memory for the tree and the items of a file of up to 11 MB; larger files get twenty times their size.
 const MEMORY: usize = 220 << 20;
+
+/// The memory for the items of a small file, and for those that each byte of a file may bring.
+const OF_SMALL: usize = 64 << 20;
+const OF_BYTE: usize = 20;
 
 /// Where an item of a drawing comes from.
 #[derive(Clone)]
@@ -165,11 +169,12 @@ impl<'d> Walk<'d> {
             drawn: 0,
             remarks: Remarks::default(),
             used: Vec::new(),
-            budget: COST + size / 4,
+            budget: COST + size / 2,
             room: Room {
                 memory: MEMORY
                     .max(size.saturating_mul(20))
-                    .saturating_sub(source.tree_size()),
+                    .saturating_sub(source.tree_size())
+                    .min(OF_SMALL.saturating_add(size.saturating_mul(OF_BYTE))),
                 items: most_items(size),
             },
             full: false,
