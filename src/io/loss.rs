@@ -66,6 +66,8 @@ pub enum Loss {
     },
     /// The name: the format has none beside that of the group.
     NoName,
+    /// The format has no names of curves, or none but the first.
+    Unnamed,
     /// The group, or the names of its path that the format does not allow.
     Group {
         /// The group written, if the format has groups.
@@ -441,6 +443,7 @@ impl Loss {
                 format!("the name is written as {written}, which {format} allows")
             }
             Self::NoName => lost("the name of a curve in a group isn't"),
+            Self::Unnamed => lost("the name isn't"),
             Self::Group { written: None } => lost("the group isn't"),
             Self::Group { .. } if differs => format!("groups are written as {format} allows"),
             Self::Group {
@@ -499,6 +502,9 @@ impl Loss {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::document::Colour;
+    use crate::geometry::FloatPolygon;
+    use crate::io::formats;
 
     #[test]
     fn losses_of_one_kind_are_one_line_with_the_first_names_and_the_largest_figures() {
@@ -579,5 +585,42 @@ mod tests {
         assert_eq!(report.left_out(), [2, 1]);
         let why = "“a” is a spline of degree 9, which SVG cannot hold";
         assert_eq!(report.first_left_out().as_deref(), Some(why));
+    }
+
+    #[test]
+    fn names_and_colours_that_a_format_has_not_are_told() {
+        let vertices = [(0.0, 0.0), (1.0, 2.0), (3.0, 1.0), (4.0, 4.0)];
+        let polygon = FloatPolygon::planar(3, &vertices).expect("a polygon");
+        let curves = ["hull", "deck"].map(|name| Curve {
+            colour: Some(Colour([200, 30, 30])),
+            ..Curve::new(name, polygon.clone())
+        });
+        let document = Document::from_curves(curves);
+        for (extension, names, colours) in [
+            ("brep", false, false),
+            ("glif", false, false),
+            ("obj", true, false),
+            ("json", true, false),
+            ("dxf", true, false),
+            ("step", true, true),
+            ("igs", true, true),
+            ("3dm", true, true),
+            ("svg", true, true),
+        ] {
+            let format = formats::find(extension).expect("a format");
+            let export = format.write(&document, None).expect("written");
+            let told = export.losses.to_string();
+            let tells = |what: &str| told.contains(&format!("“hull” and “deck”: {what}"));
+            assert_eq!(
+                tells("the name isn't stored"),
+                !names,
+                "{extension}: {told}"
+            );
+            assert_eq!(
+                tells("the colour isn't stored"),
+                !colours,
+                "{extension}: {told}"
+            );
+        }
     }
 }

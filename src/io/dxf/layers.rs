@@ -63,7 +63,8 @@ impl<'a> Layers<'a> {
             false => &path,
         };
         let shared = (reference.group.clone(), reference.visible, reference.locked);
-        let known = self.references.get(&shared);
+        let known = self.shared.get(&shared);
+        let known = known.or_else(|| self.references.get(&shared));
         if let Some(layer) = known.filter(|_| !reference.group.is_none()) {
             return layer.clone();
         }

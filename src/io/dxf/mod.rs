@@ -121,7 +121,7 @@ fn drawing(
             continue;
         };
         let layer = layers.take_reference(reference);
-        losses.add_point_weights(reference);
+        report_reference(reference, &layer, losses);
         for shape in shapes {
             match shape {
                 Shape::Polyline { points, closed } => {
@@ -176,6 +176,21 @@ fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossRe
         let is_rational = curve.polygon.is_rational();
         losses.add_if(is_rational, curve, Loss::PolygonWeights { kind });
     }
+}
+
+fn report_reference(reference: &Reference, layer: &str, losses: &mut LossReport) {
+    let Reference { name, group, .. } = reference;
+    if !group.is_none() {
+        losses.losses.push((name.clone(), Loss::NoName));
+        losses.add_group(name, group, Group::new([layer.to_owned()]));
+    } else if layer != name {
+        let written = layer.to_owned();
+        losses.losses.push((name.clone(), Loss::Name { written }));
+    }
+    if reference.colour.is_some() {
+        losses.losses.push((name.clone(), Loss::Colour));
+    }
+    losses.add_point_weights(reference);
 }
 
 /// The spline of a curve, on clamped knots.

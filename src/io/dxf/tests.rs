@@ -9,6 +9,7 @@ use super::*;
 use crate::document::Colour;
 use crate::geometry::FloatPolygon;
 use crate::geometry::end_correction::EndTarget;
+use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
 use crate::io::loss::Export;
 
 type Pair = (i32, String);
@@ -329,4 +330,28 @@ fn what_cannot_be_counted_is_refused() {
         written(&[], None),
         Err(WriteError::NoCurves { .. })
     ));
+}
+
+#[test]
+fn references_of_a_group_share_its_layer_with_curves() {
+    let group = Group::new(["Hull"]);
+    let own = planar("own").in_group(group.clone());
+    let line = PointList::new(vec![DVec3::ZERO, DVec3::X]).unwrap();
+    let line = ReferenceCurve::of(ReferenceForm::Points(line)).unwrap();
+    let line = Reference::new("line", line).in_group(group);
+    let document = Document::from_curves([own]).with_references([line]);
+    let export = DXF.write(&document, None).unwrap();
+    let drawing = exchange::dxf::read(&export.bytes).unwrap();
+    let curves = drawing.items.iter().filter(|item| {
+        item.shapes
+            .iter()
+            .all(|it| it.nurbs().is_some() || it.corners() == Some(2))
+    });
+    let groups: Vec<&[String]> = curves.map(|item| &item.group[..]).collect();
+    assert_eq!(groups, [["Hull"], ["Hull"]]);
+    let told = export.losses.to_string();
+    assert!(
+        told.contains("“own” and “line”: the name of a curve in a group isn't stored"),
+        "{told}"
+    );
 }

@@ -2,7 +2,7 @@
 
 use super::changes::Rewriter;
 use super::drawing::{Drawing, Unreadable};
-use super::writing::{Holds, KeptGroup, Manner, Written};
+use super::writing::{Holds, KeptGroup, Manner, Marks, Written};
 use super::{brep, curve_json, glif, iges, obj, step, svg, threedm};
 use crate::document::Document;
 use crate::geometry::PolygonKind;
@@ -34,9 +34,13 @@ pub static STEP: Format = Format {
     file_unit: FileUnit::Always,
     draw: Some(step::read),
     write: Some(|document, writing, losses| {
-        written(document, writing, losses, joined, |drawing, name| {
-            step::write(drawing, name, step::Protocol::Ap214)
-        })
+        written(
+            document,
+            writing,
+            losses,
+            (joined, Marks::ALL),
+            |drawing, name| step::write(drawing, name, step::Protocol::Ap214),
+        )
     }),
     exports: &[ExportRow {
         label: "Export STEP…",
@@ -55,9 +59,13 @@ pub static STEP_AP242: Format = Format {
     file_unit: FileUnit::Always,
     draw: Some(step::read),
     write: Some(|document, writing, losses| {
-        written(document, writing, losses, joined, |drawing, name| {
-            step::write(drawing, name, step::Protocol::Ap242)
-        })
+        written(
+            document,
+            writing,
+            losses,
+            (joined, Marks::ALL),
+            |drawing, name| step::write(drawing, name, step::Protocol::Ap242),
+        )
     }),
     ..NONE
 };
@@ -69,7 +77,7 @@ pub static IGES: Format = Format {
     file_unit: FileUnit::Always,
     draw: Some(iges::read),
     write: Some(|document, writing, losses| {
-        written(document, writing, losses, joined, iges::write)
+        written(document, writing, losses, (joined, Marks::ALL), iges::write)
     }),
     exports: &[ExportRow {
         label: "Export IGES…",
@@ -92,7 +100,7 @@ pub static THREEDM: Format = Format {
             document,
             writing,
             losses,
-            threedm::kept_group,
+            (threedm::kept_group, Marks::ALL),
             threedm::write,
         )
     }),
@@ -117,6 +125,7 @@ pub static SVG: Format = Format {
             written: Written::Cubics(writing.tolerance),
             kept: svg::kept_group,
             holds: svg::holds,
+            marks: Marks::ALL,
         };
         drawn(document, &manner, losses, svg::write)
     }),
@@ -125,6 +134,7 @@ pub static SVG: Format = Format {
             written: Written::Cubics(None),
             kept: <[String]>::to_vec,
             holds: svg::holds,
+            marks: Marks::ALL,
         },
         write: svg::rewrite,
     }),
@@ -149,6 +159,7 @@ pub static GLIF: Format = Format {
             written: Written::Cubics(writing.tolerance),
             kept: none,
             holds: glif::holds,
+            marks: Marks::NONE,
         };
         drawn(document, &manner, losses, glif::write)
     }),
@@ -157,6 +168,7 @@ pub static GLIF: Format = Format {
             written: Written::Cubics(None),
             kept: <[String]>::to_vec,
             holds: glif::holds,
+            marks: Marks::ALL,
         },
         write: glif::rewrite,
     }),
@@ -169,7 +181,13 @@ pub static OBJ: Format = Format {
     extensions: &["obj"],
     draw: Some(obj::read),
     write: Some(|document, writing, losses| {
-        written(document, writing, losses, obj::kept_group, obj::write)
+        written(
+            document,
+            writing,
+            losses,
+            (obj::kept_group, Marks::NAMES),
+            obj::write,
+        )
     }),
     ..NONE
 };
@@ -181,9 +199,13 @@ pub static BREP: Format = Format {
     file_unit: FileUnit::Always,
     draw: Some(brep::read),
     write: Some(|document, writing, losses| {
-        written(document, writing, losses, none, |drawing, name| {
-            brep::write(&drawing.in_millimetres(), name)
-        })
+        written(
+            document,
+            writing,
+            losses,
+            (none, Marks::NONE),
+            |drawing, name| brep::write(&drawing.in_millimetres(), name),
+        )
     }),
     ..NONE
 };
@@ -198,6 +220,7 @@ pub static CURVE_JSON: Format = Format {
             written: Written::Knots(writing.polygon.unwrap_or(PolygonKind::Clamped)),
             kept: <[String]>::to_vec,
             holds: curve_json::holds,
+            marks: Marks::NAMES,
         };
         drawn(document, &manner, losses, curve_json::write)
     }),
@@ -215,6 +238,7 @@ pub fn svg_path(document: &Document) -> Result<(String, LossReport), WriteError>
         written: Written::Cubics(None),
         kept: none,
         holds: svg::holds,
+        marks: Marks::ALL,
     };
     let drawing = Drawing::of(document, &manner, &mut losses)?;
     let data = svg::path_data(&drawing);
@@ -247,7 +271,7 @@ fn written(
     document: &Document,
     writing: &Writing,
     losses: &mut LossReport,
-    kept: KeptGroup,
+    (kept, marks): (KeptGroup, Marks),
     write: WriteDrawing,
 ) -> Result<Vec<u8>, WriteError> {
     let knots = writing.polygon.unwrap_or(PolygonKind::Clamped);
@@ -255,6 +279,7 @@ fn written(
         written: Written::Knots(knots),
         kept,
         holds: ANYTHING,
+        marks,
     };
     drawn(document, &manner, losses, write)
 }

@@ -24,6 +24,42 @@ pub(in crate::io) struct Manner {
     pub(in crate::io) kept: KeptGroup,
     /// What it holds of items: the others are left out.
     pub(in crate::io) holds: Holds,
+    /// What it holds of names and colours.
+    pub(in crate::io) marks: Marks,
+}
+
+/// What a format holds of the names and colours of items.
+#[derive(Clone, Copy)]
+pub(in crate::io) struct Marks {
+    pub(in crate::io) names: bool,
+    pub(in crate::io) colours: bool,
+}
+
+impl Marks {
+    /// Both.
+    pub(in crate::io) const ALL: Self = Self {
+        names: true,
+        colours: true,
+    };
+    /// Names alone.
+    pub(in crate::io) const NAMES: Self = Self {
+        colours: false,
+        ..Self::ALL
+    };
+    /// Neither.
+    pub(in crate::io) const NONE: Self = Self {
+        names: false,
+        colours: false,
+    };
+
+    fn report(self, name: &str, is_coloured: bool, losses: &mut LossReport) {
+        if !self.names {
+            losses.losses.push((name.to_owned(), Loss::Unnamed));
+        }
+        if !self.colours && is_coloured {
+            losses.losses.push((name.to_owned(), Loss::Colour));
+        }
+    }
 }
 
 /// How curves are written.
@@ -76,6 +112,8 @@ impl Item {
         let mut own = LossReport::new(losses.format);
         report(curve, &mut own);
         report_group(&curve.name, &curve.group, manner.kept, &mut own);
+        let is_coloured = curve.colour.is_some();
+        manner.marks.report(&curve.name, is_coloured, &mut own);
         let shape = manner.written.shape(curve, &mut own);
         let item = Self {
             group: curve.group.names().to_vec(),
@@ -97,6 +135,8 @@ impl Item {
         };
         let mut own = LossReport::new(losses.format);
         report_group(&reference.name, &reference.group, manner.kept, &mut own);
+        let is_coloured = reference.colour.is_some();
+        manner.marks.report(&reference.name, is_coloured, &mut own);
         let items = shapes.into_iter().filter_map(|shape| {
             let named = |shape: Shape| Self {
                 group: reference.group.names().to_vec(),
