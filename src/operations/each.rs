@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::copied_matches::match_copies;
 use super::error::OperationError;
 use super::operands::Operands;
 use super::operation::Operation;
@@ -55,6 +56,9 @@ impl Operation {
             });
         }
         name_added(input.document(), &mut shares);
+        if shares.len() > 1 {
+            match_copies(input.document(), &mut shares);
+        }
         check_together(input.document(), &mut shares, progress);
         shares
     }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::copied_matches::CopiedMatches;
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -59,7 +60,7 @@ pub(super) const PLANE: Parameter = Parameter {
 const COPY: Parameter = Parameter {
     name: "copy",
     label: "Copy",
-    help: "Keep the curve, and add its mirror image",
+    help: "Keep the curve, and add its mirror image, matched to images of what the curve follows",
     kind: Kind::Switch { default: false },
 };
 
@@ -112,7 +113,16 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
                 extras: Default::default(),
                 ..image
             };
-            vec![Edit::Add(Box::new(copy))]
+            outcome.copied = Some(mirror);
+            let mut edits = vec![Edit::Add(Box::new(copy))];
+            let copies = input.document().next_ids().next();
+            // Those of several copies follow one another.
+            if let Some(copy) = copies.filter(|_| !input.has_others()) {
+                let matches = CopiedMatches::of(input.document(), &mirror, &[[id, copy]]);
+                edits.extend(matches.edits);
+                outcome.remarks.extend(matches.remarks);
+            }
+            edits
         }
         false => {
             check_free(input, id)?;

@@ -14,6 +14,7 @@ mod atlas;
 mod bent_half;
 mod bridge;
 mod composite;
+mod copied_matches;
 mod crossing;
 mod cutting;
 mod degree;

@@ -133,6 +133,11 @@ impl Operands {
         self.together.contains(&item)
     }
 
+    /// Whether an operation runs on several items at once.
+    pub(super) fn has_others(&self) -> bool {
+        self.together.len() > 1
+    }
+
     /// List the curves that were chosen, with those beside.
     pub fn all_curves(&self) -> impl Iterator<Item = &(CurveId, Arc<Curve>)> {
         let beside = self.beside.iter().filter_map(|(_, it)| it.as_ref().ok());

@@ -15,7 +15,7 @@ use crate::document::{
 use crate::geometry::approximation::LevelComparison;
 use crate::geometry::fairing::requirement::{Check, Requirement};
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{Approximation, End, FloatPolygon, Progress};
+use crate::geometry::{Approximation, End, FloatPolygon, Mirror, Progress};
 
 /// Hold the outcome of an operation.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,6 +51,8 @@ pub struct Outcome {
     pub handles: Vec<Handle>,
     /// A plane of two parameters to choose from.
     pub atlas: Option<Atlas>,
+    /// The map by which an added curve is the image of the one that the operation works on.
+    pub copied: Option<Mirror>,
 }
 
 /// How far a curve moves.

@@ -1,13 +1,13 @@
 //! Mirror images of curves.
 
-use batten::document::{Curve, Edit, EndMatch, MatchPlace};
+use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
-use batten::geometry::{Continuity, End};
-use batten::operations::Value;
+use batten::geometry::{Continuity, End, FloatPolygon, Progress};
+use batten::operations::{Operands, Value};
 use glam::DVec3;
 
 use crate::common::Random;
-use crate::runner::{ROUNDING, Runner};
+use crate::runner::{ROUNDING, Runner, operation};
 
 /// The places of the options.
 const AXES: [(usize, [f64; 3]); 3] = [
@@ -152,4 +152,120 @@ fn copies_of_a_curve_are_no_new_features() {
         assert!(report.features.is_some());
         assert!(report.warnings.is_empty(), "{:?}", report.warnings);
     }
+}
+
+/// A body that is its own image in the y axis, and a handle on its right side that follows it with both ends.
+fn body_with_handle() -> (Document, [CurveId; 2]) {
+    let half = [(6.0, -8.0), (5.5, -4.0), (4.0, -1.5), (2.0, 0.0)];
+    let left = half.iter().map(|(x, y)| (-x, *y));
+    let right = half.iter().rev().copied();
+    let vertices: Vec<(f64, f64)> = left.chain([(0.0, 0.5)]).chain(right).collect();
+    let body = FloatPolygon::planar(3, &vertices).expect("a polygon");
+    let handle = [
+        (4.0, -1.0),
+        (5.0, 0.0),
+        (6.5, 0.5),
+        (8.0, 0.0),
+        (9.0, -1.5),
+        (8.5, -3.0),
+        (7.0, -4.0),
+        (6.0, -4.5),
+    ];
+    let handle = FloatPolygon::planar(3, &handle).expect("a polygon");
+    let curves = [Curve::new("body", body), Curve::new("handle", handle)];
+    let document = Document::from_curves(curves);
+    let ids: Vec<CurveId> = document.ids().collect();
+    let [body, handle] = ids.try_into().expect("two");
+    let matched = |end, u| {
+        Edit::SetMatch(EndMatch {
+            curve: handle,
+            end,
+            source: body,
+            place: MatchPlace::Parameter(u),
+            continuity: Continuity::G1,
+            reversed: false,
+        })
+    };
+    let edits = [matched(End::Start, 4.25), matched(End::Finish, 5.5)];
+    let document = document.edited(edits).expect("matched");
+    assert!(document.matches().all(|it| document.meets(it)));
+    (document, [body, handle])
+}
+
+#[test]
+fn a_copy_follows_the_image_of_what_the_curve_follows() {
+    let (document, [body, handle]) = body_with_handle();
+    let runner = Runner {
+        input: Operands::new(&document, [handle]).expect("it is there"),
+    };
+    let outcome = runner.run("mirror", &[("copy", Value::Switch(true))]);
+    let outcome = outcome.expect("it can run");
+    let both = document.edited(outcome.edits).expect("valid");
+    assert_eq!(both.matches().len(), 4, "{:?}", outcome.remarks);
+    let images: Vec<&EndMatch> = both.matches().filter(|it| it.curve != handle).collect();
+    let places: Vec<MatchPlace> = images.iter().map(|it| it.place).collect();
+    for (place, expected) in places.iter().zip([1.75, 0.5]) {
+        let MatchPlace::Parameter(u) = place else {
+            panic!("{place:?}");
+        };
+        assert!((u - expected).abs() <= 1e-12, "{u}");
+    }
+    assert!(images.iter().all(|it| it.source == body && it.reversed));
+    let check = |document: &Document| {
+        assert!(document.matches().all(|it| document.meets(it)));
+        let polygon = |id| &document.curve(id).expect("a curve").polygon;
+        let pairs = polygon(handle).vertices().iter();
+        let pairs = pairs.zip(polygon(images[0].curve).vertices());
+        for (own, image) in pairs {
+            let expected = DVec3::new(-own.x, own.y, 0.0);
+            assert!(image.distance(expected) <= 1e-11, "{image} for {expected}");
+        }
+    };
+    check(&both);
+    // The body changes alike on both sides: both handles follow.
+    let vertices = both.curve(body).expect("a curve").polygon.vertices();
+    let move_ends = |moves: &[(usize, f64)]| {
+        let to = |index: usize, by: f64| vertices[index] + DVec3::new(by, 0.5, 0.0);
+        let moves = moves.iter().map(|(index, by)| (*index, to(*index, *by)));
+        Edit::MoveVertices {
+            curve: body,
+            moves: moves.collect(),
+        }
+    };
+    let edit = move_ends(&[(0, -0.4), (vertices.len() - 1, 0.4)]);
+    check(&both.edited([edit]).expect("valid"));
+    // What is no image of itself is not followed.
+    let edit = move_ends(&[(0, -0.4)]);
+    let uneven = document.edited([edit]).expect("valid");
+    let runner = Runner {
+        input: Operands::new(&uneven, [handle]).expect("it is there"),
+    };
+    let outcome = runner.run("mirror", &[("copy", Value::Switch(true))]);
+    let outcome = outcome.expect("it can run");
+    let told = "The end of the copy of “handle” is not matched: “body” is neither mirrored nor its own image";
+    assert_eq!(outcome.remarks.first().map(String::as_str), Some(told));
+}
+
+#[test]
+fn copies_of_several_curves_follow_each_other() {
+    let (document, [body, handle]) = body_with_handle();
+    let beside = Operands::new(&document, [body]).map(|it| vec![(body, Ok(it))]);
+    let input = Operands::new(&document, [handle]).expect("it is there");
+    let input = input.with_beside(beside.expect("it is there"));
+    let operation = operation("mirror");
+    let given = [("axis", Value::Choice(1)), ("copy", Value::Switch(true))];
+    let values = operation.values(&input, given).expect("valid");
+    let shares = operation.run_on_each(&input, &values, &Progress::default());
+    let edits = shares
+        .into_iter()
+        .flat_map(|it| it.outcome.expect("it can run").edits);
+    let all = document.edited(edits).expect("valid");
+    let [handle_copy, body_copy] = {
+        let mut ids = document.next_ids();
+        [(); 2].map(|()| ids.next().expect("an id"))
+    };
+    let images: Vec<&EndMatch> = all.matches().filter(|it| it.curve == handle_copy).collect();
+    assert_eq!(images.len(), 2);
+    assert!(images.iter().all(|it| it.source == body_copy));
+    assert!(all.matches().all(|it| all.meets(it)));
 }
