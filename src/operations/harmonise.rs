@@ -8,6 +8,7 @@ use super::editable::{check_measurable, editable};
 use super::error::OperationError;
 use super::inputs::Inputs;
 use super::lists::{LOCKED, given, given_count, locked};
+use super::matches::kept_places;
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
@@ -18,7 +19,7 @@ use super::values::Values;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::harmonising::{
-    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows, harmonise,
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows, harmonise, unevenness,
 };
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
@@ -136,6 +137,11 @@ const MAX_DEVIATION: Parameter = Parameter {
     ),
 };
 
+/// A polygon is torn whose unevenness is more than this, and so many times that before: a leg seven times as long as
+/// its neighbours let expect, or a turn by 115° more.
+const TORN: f64 = 2.0;
+const MUCH_LESS_EVEN: f64 = 3.0;
+
 /// A move of a vertex by more than this share of the curve's size is named.
 const FAR_MOVE: f64 = 0.5;
 
@@ -221,14 +227,18 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             true => Deviation::AtMost(found.deviation),
             false => Deviation::Measured(found.deviation),
         };
-        Outcome::reshaped(id, found.polygon.clone(), deviation)
+        let mut outcome = Outcome::reshaped(id, found.polygon.clone(), deviation);
+        let kept = kept_places(input.document(), id, &found.polygon);
+        outcome.edits.extend(kept);
+        outcome
     };
     let turned = turned_over(&curve.polygon, &found.polygon);
     let flung = flung(&curve.polygon, &found.polygon).map(|(vertex, distance)| {
         let distance = significant(distance, 3);
         format!("Vertex {vertex} moves by {distance}, farther than the polygon is large: ask for more features")
     });
-    let is_wrong = turned.is_some() || flung.is_some();
+    let torn = torn(&curve.polygon, &found.polygon, &progress);
+    let is_wrong = turned.is_some() || flung.is_some() || torn.is_some();
     let failed = is_wrong.then_some(Requirement::Failed { left: None });
     let requirements = found.requirements.iter().cloned().chain(failed);
     outcome.requirements = vec![(id, requirements.collect())];
@@ -242,6 +252,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         .map(|turned| format!("{turned}: ask for more extrema"))
         .into_iter()
         .chain(flung.or_else(|| tail(&curve.polygon, &found.polygon)))
+        .chain(torn)
         .collect();
     let raised = required.into_iter().filter_map(|(_, remark)| remark);
     outcome.remarks.extend(raised);
@@ -364,6 +375,15 @@ fn tail(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
     (distance > FAR_MOVE * size).then(|| {
         let distance = significant(distance, 3);
         format!("Vertex {vertex} moves by {distance}: ask for other extrema, or refine first, to move it less")
+    })
+}
+
+/// Say that the polygon is far less even than before.
+fn torn(before: &FloatPolygon, after: &FloatPolygon, progress: &Progress) -> Option<String> {
+    let [was, now] = [before, after].map(|polygon| unevenness(polygon, progress));
+    let (was, now) = was.zip(now)?;
+    (now > TORN && now > MUCH_LESS_EVEN * was).then(|| {
+        "The polygon gets far less even, in its legs or its angles: ask for more features, or refine first".to_owned()
     })
 }
 

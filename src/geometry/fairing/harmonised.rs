@@ -213,7 +213,7 @@ pub fn follows(polygon: &FloatPolygon, progress: &Progress) -> Option<bool> {
 
 /// The largest second differences of the turning angles of a polygon, in radians, and of the logarithms of its legs,
 /// together; `None` if there are none, or the computation was cancelled.
-pub(super) fn unevenness(polygon: &FloatPolygon, progress: &Progress) -> Option<f64> {
+pub fn unevenness(polygon: &FloatPolygon, progress: &Progress) -> Option<f64> {
     let figures = harmony_of(polygon, progress)?.figures;
     let (turns, legs) = figures.turns.zip(figures.legs)?;
     Some(turns.value + legs.value)

@@ -5,7 +5,6 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use super::counts::{CountRequest, ShapeCounts, counted, domain, seen, significant};
-use super::harmonised::unevenness;
 use super::problem::{Problem, Sweep};
 use super::refitting::{fit_conditions, fitted};
 use super::requirement::{Check, PlaceRequest, Requirement};
@@ -15,7 +14,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::progress::Progress;
 
 pub use super::harmonised::{
-    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows,
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows, unevenness,
 };
 
 /// The weight ε at which the search begins.
