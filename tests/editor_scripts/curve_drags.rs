@@ -318,3 +318,22 @@ fn at_a_matched_end_the_tangent_slides_and_the_end_is_held() {
         );
     }
 }
+
+#[test]
+fn a_curve_whose_vertices_are_all_selected_moves_as_a_whole() {
+    let mut script = Script::example("bottle");
+    let before = script.polygon();
+    let (_, at) = place_on_curve(&script, 0.4);
+    script.command(Command::SelectAll);
+    let count = before.vertices().len();
+    assert_eq!(script.selected().len(), count);
+    script.drag(at, at + BY);
+    let after = script.polygon();
+    let pairs = before.vertices().iter().zip(after.vertices());
+    let moves: Vec<DVec3> = pairs.map(|(before, after)| *after - *before).collect();
+    assert!(moves[0].length() > 0.0);
+    let size = before.size();
+    let apart = moves.iter().map(|by| by.distance(moves[0]));
+    assert!(apart.fold(0.0, f64::max) <= 1e-13 * size, "{moves:?}");
+    assert_eq!((script.selected().len(), script.steps()), (count, 1));
+}

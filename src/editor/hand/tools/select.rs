@@ -315,6 +315,9 @@ impl SelectTool {
             return self.start_moving_point(place, curve, PointKind::Clamped(index), context);
         }
         let curve = point_of_curve(place, context);
+        if let Some(hit) = curve.filter(|hit| is_whole(hit.curve, context)) {
+            return self.start_moving_whole(place, hit, context);
+        }
         if let Some(leg) = leg_before(place, curve, context) {
             return self.start_moving_leg(place, leg, context);
         }
@@ -384,6 +387,20 @@ impl SelectTool {
         self.move_these(place, (grip, leg.point), taken, label, context)
     }
 
+    /// All vertices of a curve are selected: it moves as a whole, by any place on it.
+    fn start_moving_whole(
+        &mut self,
+        place: DVec2,
+        hit: CurveHit,
+        context: &Context,
+    ) -> Vec<Effect> {
+        let taken: Vec<VertexId> = context.selection.vertices().collect();
+        match context.places(taken.iter().copied()).first() {
+            Some((grip, _)) => self.move_these(place, (*grip, hit.point), taken, None, context),
+            None => vec![refused((hit.curve, 0), context)],
+        }
+    }
+
     fn start_moving_point(
         &mut self,
         place: DVec2,
@@ -442,6 +459,12 @@ fn point_of_curve(place: DVec2, context: &Context) -> Option<CurveHit> {
     let hit = context.hits.curve(place)?;
     let curve = context.document.curve(hit.curve)?;
     (curve.polygon.degree() > 1).then_some(hit)
+}
+
+/// Whether all vertices of a curve are selected.
+fn is_whole(curve: CurveId, context: &Context) -> bool {
+    let selected = context.selection.of_curve(curve).count();
+    selected > 0 && selected == vertex_count(curve, context)
 }
 
 /// The leg that a press takes, if it is clearly nearer than the curve; none of another curve where the active one runs.
