@@ -53,6 +53,10 @@ impl MeasureTool {
     fn place(&self, at: DVec2, context: &Context) -> Place {
         let view = context.viewport;
         if let Some(from) = self.from.as_ref().filter(|_| context.modifiers.shift) {
+            let snap = context
+                .measured_snap(at)
+                .filter(|_| !context.modifiers.ctrl);
+            let at = snap.map_or(at, |snap| view.flatten(snap.point));
             let by = along_axis(at - view.flatten(from.point));
             return Place::new(from.point + view.movement(by, true), context);
         }
