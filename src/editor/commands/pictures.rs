@@ -67,8 +67,8 @@ impl PictureChange {
     pub fn apply(&self, editor: &mut Editor) -> Reply {
         match self.edit(editor) {
             Ok(Some(edit)) => {
-                if matches!(self, Self::Relink(_)) {
-                    editor.view.pictures.retry();
+                if let Self::Relink(path) = self {
+                    editor.view.pictures.read_again(path);
                 }
                 editor.apply(self.label(), vec![edit])
             }

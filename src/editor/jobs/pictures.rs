@@ -1,5 +1,6 @@
 //! Pictures, read and decoded one after the other on a thread.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use super::Client;
@@ -55,9 +56,12 @@ impl Pictures {
         loaded.find(|(own, _)| own == source).map(|(_, it)| it)
     }
 
-    /// Read the files that could not be read once more.
-    pub fn retry(&mut self) {
-        self.loaded.retain(|(_, picture)| picture.is_ok());
+    /// Read a file once more, and those that could not be read.
+    pub fn read_again(&mut self, path: &Path) {
+        let is_that =
+            |source: &PictureSource| matches!(source, PictureSource::File(it) if it == path);
+        self.loaded
+            .retain(|(source, picture)| picture.is_ok() && !is_that(source));
     }
 
     fn take(&mut self) {
