@@ -1,6 +1,6 @@
 //! The proved features and the harmony of curves, before an operation and afterwards.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use eframe::egui::{Role, Sense, Ui, WidgetInfo, vec2};
 
@@ -18,15 +18,16 @@ pub const OUTDATED: f32 = 0.5;
 /// The width of a column of figures.
 const COLUMN: f32 = 96.0;
 
-/// The most characters of a figure in a column.
+/// The most characters of a figure in a column, and in half of the panel.
 const FITTING: usize = 9;
+const HALF: usize = 15;
 
 /// The features before and after an operation: rows keep their places.
 #[derive(Default)]
 pub struct Comparison {
     rows: SteadyRows,
-    /// The rows whose figures have taken a line of their own, as long ones of several curves do.
-    wide: BTreeSet<&'static str>,
+    /// How many lines rows have taken: long figures, as those of several curves, have one together or each one.
+    lines: BTreeMap<&'static str, usize>,
 }
 
 impl Comparison {
@@ -40,14 +41,15 @@ impl Comparison {
             ui.multiply_opacity(OUTDATED);
         }
         let (before, after) = (&features.before, &features.after);
-        before_after_ui(ui, "", ["before", "after"], false);
+        before_after_ui(ui, "", ["before", "after"], 1);
         for (name, texts) in self.rows.in_place(rows(before, after)) {
             let texts = texts.unwrap_or_else(|| ["–".to_owned(), "–".to_owned()]);
-            if texts.iter().any(|text| text.chars().count() > FITTING) {
-                self.wide.insert(name);
-            }
-            let is_wide = self.wide.contains(name);
-            before_after_ui(ui, name, [&texts[0], &texts[1]], is_wide);
+            let longest = texts.iter().map(|text| text.chars().count()).max();
+            let longest = longest.unwrap_or_default();
+            let needed = 1 + usize::from(longest > FITTING) + usize::from(longest > HALF);
+            let lines = self.lines.entry(name).or_default();
+            *lines = needed.max(*lines);
+            before_after_ui(ui, name, [&texts[0], &texts[1]], *lines);
         }
     }
 }
@@ -168,21 +170,23 @@ pub fn monotone_ui(ui: &mut Ui, in_progress: &OperationInProgress) {
     });
 }
 
-/// One row of figures in two columns: before and after.
-fn before_after_ui(ui: &mut Ui, name: &str, [before, after]: [&str; 2], is_wide: bool) {
+/// One row of figures, before and after: in columns beside the name, on a second line, or on a line each.
+fn before_after_ui(ui: &mut Ui, name: &str, [before, after]: [&str; 2], lines: usize) {
     let told = format!("{name}: {before} before, {after} after");
     let line = 5.0 * STEP;
-    let lines = if is_wide { 2.0 } else { 1.0 };
-    let size = vec2(ui.available_width(), lines * line);
+    let size = vec2(ui.available_width(), lines as f32 * line);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let tokens = Tokens::of(ui);
     let top = rect.with_max_y(rect.top() + line);
     widgets::label_in(ui, top, name, tokens.faint_text);
-    let rect = rect.with_min_y(rect.bottom() - line);
-    let column = if is_wide { 0.5 * rect.width() } else { COLUMN };
-    let left = rect.with_max_x(rect.right() - column);
-    widgets::number_in(ui, left, before, tokens.text);
-    widgets::number_in(ui, rect, after, tokens.text);
+    let last = rect.with_min_y(rect.bottom() - line);
+    let first = match lines {
+        1 => last.with_max_x(last.right() - COLUMN),
+        2 => last.with_max_x(last.center().x),
+        _ => last.translate(vec2(0.0, -line)),
+    };
+    widgets::number_in(ui, first, before, tokens.text);
+    widgets::number_in(ui, last, after, tokens.text);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, told.clone()));
 }
 

@@ -326,6 +326,14 @@ impl Purpose {
 /// The path with the extension of the written format.
 fn completed(purpose: &Purpose, path: &Path) -> PathBuf {
     let is_name = path.file_name().is_some() && !path.is_dir();
+    // The name was proposed without its extension, and typed with it.
+    let stem = path.file_stem().map(Path::new);
+    let doubled = stem.filter(|stem| {
+        stem.extension()
+            .is_some_and(|it| Some(it) == path.extension())
+    });
+    let single = doubled.map(|stem| path.with_file_name(stem));
+    let path = single.as_deref().unwrap_or(path);
     match purpose.written() {
         Some(format) if is_name => with_extension(path, format.extension()),
         _ => path.to_owned(),
