@@ -377,7 +377,7 @@ fn listed(columns: &[TableColumn]) -> String {
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum WriteError {
     /// There are no curves.
-    #[error("there is no curve to write: a {format} file needs at least one")]
+    #[error("there is no curve to write: {format} files need at least one")]
     NoCurves {
         /// The name of the format.
         format: &'static str,

@@ -499,7 +499,7 @@ fn a_conversion_that_fails_leaves_the_old_file() {
         .with("old.csv", "old");
     folder.refused(
         &["convert", "none.batten", "old.csv"],
-        "old.csv: there is no curve to write: a CSV table file needs at least one",
+        "old.csv: there is no curve to write: CSV table files need at least one",
     );
     assert_eq!(fs::read(folder.path("old.csv")).unwrap(), b"old");
     assert_eq!(fs::read_dir(folder.0.path()).unwrap().count(), 2);
