@@ -1,6 +1,5 @@
 //! Matches of mirrored copies: each copy follows the copy of what its curve follows, or the image of the place.
 
-use super::each::Share;
 use crate::document::{CurveId, Document, Edit, EndMatch, MatchPlace, quoted};
 use crate::geometry::{End, FloatPolygon, Mirror};
 
@@ -38,34 +37,6 @@ impl CopiedMatches {
             }
         }
         found
-    }
-}
-
-/// Match the copies that several runs of one operation add, behind all of their edits.
-pub(super) fn match_copies(document: &Document, shares: &mut [Share]) {
-    let mut ids = document.next_ids();
-    let mut copies = Vec::new();
-    let mut mirror = None;
-    for share in &*shares {
-        let Ok(outcome) = &share.outcome else {
-            continue;
-        };
-        let is_added = |edit: &&Edit| matches!(edit, Edit::Add(_) | Edit::AddReference(_));
-        let count = outcome.edits.iter().filter(is_added).count();
-        let added: Vec<CurveId> = ids.by_ref().take(count).collect();
-        if let (Some(by), Some(own), [copy]) = (outcome.copied, share.item, &added[..]) {
-            mirror = Some(by);
-            copies.push([own, *copy]);
-        }
-    }
-    let Some(mirror) = mirror else {
-        return;
-    };
-    let CopiedMatches { edits, remarks } = CopiedMatches::of(document, &mirror, &copies);
-    let outcomes = shares.iter_mut().rev();
-    if let Some(last) = outcomes.filter_map(|it| it.outcome.as_mut().ok()).next() {
-        last.edits.extend(edits);
-        last.remarks.extend(remarks);
     }
 }
 
