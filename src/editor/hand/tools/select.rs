@@ -213,7 +213,7 @@ impl Tool for SelectTool {
                 } else if context.document.is_empty() {
                     "Nothing here yet: draw a polygon with D, or open a file with Ctrl+O".into()
                 } else {
-                    "Drag vertices or the curve; arrow keys nudge it, a double-click takes it whole".into()
+                    "Drag a vertex or the curve; arrow keys nudge it, a double-click takes it whole".into()
                 }
             }
         }
