@@ -19,10 +19,11 @@ use super::values::Values;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::harmonising::{
-    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows, harmonise, unevenness,
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows, harmonise,
 };
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
+use crate::geometry::harmony::unevenness;
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{
     BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, percent, rounded_up,
@@ -237,7 +238,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         let distance = significant(distance, 3);
         format!("Vertex {vertex} moves by {distance}, farther than the polygon is large: ask for more features")
     });
-    let torn = torn(&curve.polygon, &found.polygon, &progress);
+    let torn = torn(&curve.polygon, &found.polygon);
     let is_wrong = turned.is_some() || flung.is_some() || torn.is_some();
     let failed = is_wrong.then_some(Requirement::Failed { left: None });
     let requirements = found.requirements.iter().cloned().chain(failed);
@@ -379,8 +380,8 @@ fn tail(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
 }
 
 /// Say that the polygon is far less even than before.
-fn torn(before: &FloatPolygon, after: &FloatPolygon, progress: &Progress) -> Option<String> {
-    let [was, now] = [before, after].map(|polygon| unevenness(polygon, progress));
+fn torn(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
+    let [was, now] = [before, after].map(unevenness);
     let (was, now) = was.zip(now)?;
     (now > TORN && now > MUCH_LESS_EVEN * was).then(|| {
         "The polygon gets far less even, in its legs or its angles: ask for more features, or refine first".to_owned()

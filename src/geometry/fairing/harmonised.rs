@@ -207,19 +207,7 @@ pub fn farthest_move(before: &FloatPolygon, after: &FloatPolygon) -> Option<(usi
 /// Whether the discrete curvature of a polygon has the extrema and inflections of its curve, in their order; `None` if
 /// the computation was cancelled.
 pub fn follows(polygon: &FloatPolygon, progress: &Progress) -> Option<bool> {
-    let harmony = harmony_of(polygon, progress)?;
-    Some(harmony.curvature.verdict == harmony::Match::Agrees)
-}
-
-/// The largest second differences of the turning angles of a polygon, in radians, and of the logarithms of its legs,
-/// together; `None` if there are none, or the computation was cancelled.
-pub fn unevenness(polygon: &FloatPolygon, progress: &Progress) -> Option<f64> {
-    let figures = harmony_of(polygon, progress)?.figures;
-    let (turns, legs) = figures.turns.zip(figures.legs)?;
-    Some(turns.value + legs.value)
-}
-
-fn harmony_of(polygon: &FloatPolygon, progress: &Progress) -> Option<harmony::Harmony> {
     let features = Features::proved(polygon, |_| !progress.is_cancelled())?;
-    Some(harmony::Harmony::of(polygon, &features))
+    let harmony = harmony::Harmony::of(polygon, &features);
+    Some(harmony.curvature.verdict == harmony::Match::Agrees)
 }

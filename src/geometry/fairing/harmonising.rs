@@ -11,10 +11,11 @@ use super::requirement::{Check, PlaceRequest, Requirement};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::features::Features;
 use crate::geometry::float_polygon::FloatPolygon;
+use crate::geometry::harmony::unevenness;
 use crate::geometry::progress::Progress;
 
 pub use super::harmonised::{
-    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows, unevenness,
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows,
 };
 
 /// The weight ε at which the search begins.
@@ -98,7 +99,7 @@ fn chosen(
     let rank = |it: &Harmonised| it.rank(polygon);
     candidates.sort_by(|a, b| rank(a).partial_cmp(&rank(b)).unwrap_or(Ordering::Equal));
     let nearest = candidates.first()?.clone();
-    if let Some(even) = more_even(polygon, &nearest, &candidates, progress) {
+    if let Some(even) = more_even(polygon, &nearest, &candidates) {
         return Some(even.clone());
     }
     let (_, _, price) = rank(&nearest);
@@ -120,7 +121,6 @@ fn more_even<'a>(
     polygon: &FloatPolygon,
     nearest: &Harmonised,
     candidates: &'a [Harmonised],
-    progress: &Progress,
 ) -> Option<&'a Harmonised> {
     let is_whole = |it: &&Harmonised| {
         let (misses, flung, _) = it.rank(polygon);
@@ -133,9 +133,8 @@ fn more_even<'a>(
     if !nearest.refitted {
         return None;
     }
-    let before = unevenness(polygon, progress)?;
-    let is_even =
-        |it: &Harmonised| unevenness(&it.polygon, progress).is_some_and(|now| now <= before);
+    let before = unevenness(polygon)?;
+    let is_even = |it: &Harmonised| unevenness(&it.polygon).is_some_and(|now| now <= before);
     if is_even(nearest) {
         return None;
     }

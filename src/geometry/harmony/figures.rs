@@ -2,6 +2,7 @@
 
 use super::events::{Event, SequenceEvent};
 use super::flow::{VertexFlow, VertexSequence};
+use crate::geometry::float_polygon::FloatPolygon;
 
 /// Hold a figure with the vertex that it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +53,15 @@ impl HarmonyFigures {
             sharpest: largest(at_extrema),
         }
     }
+}
+
+/// How uneven a polygon is: the largest second differences of its turning angles, in radians, and of the logarithms of
+/// its legs, added up. `None` of one with too few vertices for either; infinite at a leg without length.
+pub fn unevenness(polygon: &FloatPolygon) -> Option<f64> {
+    let flow = VertexFlow::of(polygon);
+    let legs = largest(flow.legs.map(f64::ln).second_differences());
+    let (turns, legs) = worst(&flow.turns).zip(legs)?;
+    Some(turns.value + legs.value)
 }
 
 fn worst(sequence: &VertexSequence) -> Option<VertexFigure> {

@@ -15,7 +15,7 @@ mod tests;
 
 pub use events::Event;
 pub use fairness::{Fairness, SegmentFairness};
-pub use figures::{HarmonyFigures, VertexFigure};
+pub use figures::{HarmonyFigures, VertexFigure, unevenness};
 pub use flow::{VertexFlow, VertexSequence};
 pub use isogeometry::{EventCounts, Isogeometry, Match, Mismatch};
 pub use logarithmic_pieces::LogarithmicPiece;
