@@ -30,6 +30,8 @@ pub struct Lowered {
     /// The inflections (in space zeros of the torsion) and the curvature extrema, before and now; `None` if they are the
     /// same, or not all known.
     pub changed: Option<[[usize; 2]; 2]>,
+    /// Whether features differ.
+    pub differs: bool,
 }
 
 impl fmt::Display for Lowered {
@@ -38,7 +40,11 @@ impl fmt::Display for Lowered {
             true => "",
             false => ", which is more than the tolerance",
         };
-        let features = self.changed.map_or_else(String::new, |[before, now]| {
+        let differ = match self.differs {
+            true => "; features differ".to_owned(),
+            false => String::new(),
+        };
+        let features = self.changed.map_or(differ, |[before, now]| {
             let [inflections, extrema] = [0, 1].map(|kind| (before[kind], now[kind]));
             format!(
                 "; inflections: {} before, {} now; curvature extrema: {} before, {} now",
@@ -78,7 +84,7 @@ pub fn told_of_lowered(lowered: &[Lowered]) -> Vec<String> {
     let lines = kinds.into_iter().filter_map(|(is_within, differs, told)| {
         let alike = lowered
             .iter()
-            .filter(|it| it.is_within == is_within && it.changed.is_some() == differs);
+            .filter(|it| it.is_within == is_within && it.differs == differs);
         let alike: Vec<&Lowered> = alike.collect();
         let names: Vec<&str> = alike.iter().map(|it| it.name.as_str()).collect();
         let becomes = alike.first()?.lowered;
@@ -109,6 +115,18 @@ pub fn lowered(
     tolerance: Option<f64>,
     progress: &Progress,
 ) -> Result<(Document, Vec<Lowered>), OperationError> {
+    let is_high = |reference: &Reference| match reference.curve.form() {
+        ReferenceForm::Nurbs(nurbs) => nurbs.degree() > most,
+        _ => false,
+    };
+    let high = document.curves();
+    let high = high.filter(|(_, curve)| curve.polygon.degree() > most);
+    let count = high.count() + document.references().filter(|it| is_high(it.1)).count();
+    let mut shares = (0..count).map(|index| [index, index + 1].map(|it| it as f64 / count as f64));
+    let mut part = || match shares.next() {
+        Some([from, to]) => progress.part(from, to),
+        None => progress.clone(),
+    };
     let mut told = Vec::new();
     let mut curves = Vec::new();
     for (_, curve) in document.curves() {
@@ -123,7 +141,8 @@ pub fn lowered(
                 least: polygon.segments(),
                 tolerance: Some(tolerance),
             };
-            let found = fewest(polygon, &goal, progress)?;
+            let found = fewest(polygon, &goal, &part())?;
+            let changed = changed_features(polygon, &found.polygon, progress)?;
             told.push(Lowered {
                 name: curve.name.clone(),
                 degree: polygon.degree(),
@@ -131,7 +150,8 @@ pub fn lowered(
                 vertices: found.polygon.vertices().len(),
                 deviation: found.deviation,
                 is_within: found.deviation <= tolerance,
-                changed: changed_features(polygon, &found.polygon, progress)?,
+                changed,
+                differs: changed.is_some(),
             });
             copy = Curve {
                 group: copy.group,
@@ -151,7 +171,7 @@ pub fn lowered(
                     degree: Some(most),
                     tolerance,
                 };
-                let floats = floats_of(reference, request, progress)?;
+                let floats = floats_of(reference, request, &part())?;
                 told.push(Lowered {
                     name: reference.name.clone(),
                     degree: nurbs.degree(),
@@ -160,6 +180,7 @@ pub fn lowered(
                     deviation: floats.deviation,
                     is_within: floats.is_within,
                     changed: None,
+                    differs: floats.keeps_features == Some(false),
                 });
                 curves.extend(floats.curves);
             }
@@ -187,6 +208,7 @@ mod tests {
             deviation: index as f64,
             is_within: true,
             changed: (index == 6).then_some([[0, 1], [0, 3]]),
+            differs: index == 6,
         };
         let all: Vec<Lowered> = (1..=6).map(lowered).collect();
         assert_eq!(
