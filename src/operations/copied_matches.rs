@@ -1,10 +1,15 @@
 //! Matches of mirrored copies: each copy follows the copy of what its curve follows, or the image of the place.
 
+use glam::DVec3;
+
 use crate::document::{CurveId, Document, Edit, EndMatch, MatchPlace, quoted};
 use crate::geometry::{End, FloatPolygon, Mirror};
 
 /// A place is on a symmetric curve if it is no farther from it than this, in units of the curve's size.
 const ON_CURVE: f64 = 1e-9;
+
+/// Directions whose cosine is more than this are one, or opposite.
+const ALONG: f64 = 0.999_999;
 
 /// What becomes of the matches of curves whose mirror images are added.
 #[derive(Debug, Default)]
@@ -48,8 +53,11 @@ fn image(document: &Document, matched: &EndMatch, mirror: &Mirror) -> Option<End
     if nearest.distance > ON_CURVE * source.size() {
         return None;
     }
-    let along = mirror.vector(jet.first).dot(source.jet(nearest.u).first);
-    Some(EndMatch {
+    // Where the curve crosses itself the place may be another one.
+    let directions = [mirror.vector(jet.first), source.jet(nearest.u).first];
+    let [image, own] = directions.map(DVec3::normalize_or_zero);
+    let along = image.dot(own);
+    (along.abs() > ALONG).then_some(EndMatch {
         place: place(source, matched.place, nearest.u),
         reversed: matched.reversed != (along < 0.0),
         ..*matched
@@ -69,7 +77,11 @@ fn place(source: &FloatPolygon, place: MatchPlace, u: f64) -> MatchPlace {
 fn unmatched(document: &Document, matched: &EndMatch) -> Option<String> {
     let [own, source] = [matched.curve, matched.source].map(|id| document.name(id).map(quoted));
     let (own, end, source) = (own?, matched.end.name(), source?);
+    let why = match document.reference(matched.source) {
+        Some(_) => "is a reference",
+        None => "is neither mirrored nor its own image",
+    };
     Some(format!(
-        "The {end} of the copy of {own} is not matched: {source} is neither mirrored nor its own image"
+        "The {end} of the copy of {own} is not matched: {source} {why}"
     ))
 }
