@@ -326,17 +326,20 @@ impl Purpose {
 /// The path with the extension of the written format.
 fn completed(purpose: &Purpose, path: &Path) -> PathBuf {
     let is_name = path.file_name().is_some() && !path.is_dir();
-    // The name was proposed without its extension, and typed with it.
-    let stem = path.file_stem().map(Path::new);
-    let doubled = stem.filter(|stem| {
-        stem.extension()
-            .is_some_and(|it| Some(it) == path.extension())
-    });
-    let single = doubled.map(|stem| path.with_file_name(stem));
-    let path = single.as_deref().unwrap_or(path);
     match purpose.written() {
-        Some(format) if is_name => with_extension(path, format.extension()),
+        Some(format) if is_name => with_extension(&once(path, format), format.extension()),
         _ => path.to_owned(),
+    }
+}
+
+/// The path with an extension of the format once: a name that is typed over the selected stem may bring another.
+fn once(path: &Path, format: &Format) -> PathBuf {
+    let is_own = |it: &OsStr| format.extensions.iter().any(|own| it == *own);
+    let own = path.extension().filter(|it| is_own(it));
+    let stem = path.file_stem().map(Path::new);
+    match stem.filter(|stem| own.is_some() && stem.extension() == own) {
+        Some(stem) => path.with_file_name(stem),
+        None => path.to_owned(),
     }
 }
 
@@ -418,6 +421,25 @@ mod tests {
             assert_eq!(typed(text), PathBuf::from(read));
         }
         assert_eq!(typed("/home/me/~/scan.csv"), typed("~/scan.csv"));
+    }
+
+    #[test]
+    fn a_written_file_has_its_extension_once() {
+        for (typed, path) in [
+            ("/a/hull", "/a/hull.batten"),
+            ("/a/hull.batten", "/a/hull.batten"),
+            ("/a/hull.batten.batten", "/a/hull.batten"),
+            ("/a/hull.v1.v1", "/a/hull.v1.v1.batten"),
+        ] {
+            let found = completed(&Purpose::Save(None), Path::new(typed));
+            assert_eq!(found, PathBuf::from(path), "{typed}");
+        }
+        let read = Path::new("/a/hull.batten.batten");
+        assert_eq!(
+            completed(&Purpose::Open, read),
+            read,
+            "a file that is there"
+        );
     }
 
     #[test]
