@@ -36,7 +36,7 @@ const SQUARE: f32 = 3.5;
 /// More points of a list than this are marked by smaller discs.
 const CROWD: usize = 200;
 
-/// The strength of the teeth of a comb in the colour of its curve.
+/// The strength of the teeth of a comb beside its envelope.
 const TEETH_STRENGTH: f32 = 0.35;
 
 /// How strong the evolute is beside the curve: it runs over all of the canvas.
@@ -135,15 +135,17 @@ impl Brush<'_> {
         let tokens = self.tokens;
         let evolute = fade(tokens.evolute).gamma_multiply(EVOLUTE_STRENGTH);
         self.evolute(&curve.evolute, evolute);
-        // Combs of several curves are compared: they fade as the curves do, and have the colours of the others.
+        // Combs of several curves are compared: they fade as their curves do. Each has the colour of its curve, but for
+        // that of the active one.
         let own = tokens.of_item(curve.id, curve.colour, curve.is_reference);
-        let [teeth, envelope] = match curve.active {
-            true => [tokens.comb_teeth, tokens.comb],
-            false => [own.gamma_multiply(TEETH_STRENGTH), own],
+        let colour = match curve.active {
+            true => tokens.comb,
+            false => own,
         };
-        let comb = |colour: Color32| colour.gamma_multiply(own_strength(curve));
-        self.hairs(&curve.teeth, 1.0, comb(teeth));
-        self.chain(&curve.comb, Stroke::new(1.0, comb(envelope)));
+        let colour = colour.gamma_multiply(own_strength(curve));
+        let teeth = colour.gamma_multiply(TEETH_STRENGTH);
+        self.hairs(&curve.teeth, 1.0, teeth);
+        self.chain(&curve.comb, Stroke::new(1.0, colour));
         self.legs(&curve.clamped, true, Stroke::new(1.0, fade(tokens.clamped)));
         let float = if curve.active { 1.25 } else { 1.0 };
         self.legs(&curve.float, false, Stroke::new(float, fade(tokens.float)));

@@ -81,8 +81,6 @@ pub struct Tokens {
     pub evolute: Color32,
     /// The curvature comb, its envelope.
     pub comb: Color32,
-    /// The comb's teeth.
-    pub comb_teeth: Color32,
     /// Target points and directions.
     pub target: Color32,
     /// Within tolerance.
@@ -114,15 +112,6 @@ pub const CURVE_COLOURS: [(&str, Colour); 8] = [
 const fn pick(dark: bool, [of_dark, of_light]: [u32; 2]) -> Color32 {
     let hex = if dark { of_dark } else { of_light };
     Color32::from_rgb((hex >> 16) as u8, (hex >> 8) as u8, hex as u8)
-}
-
-/// A colour at 35 per cent; egui's colours are premultiplied.
-const fn at_35_percent(colour: Color32) -> Color32 {
-    const fn share(channel: u8) -> u8 {
-        (channel as u32 * 35 / 100) as u8
-    }
-    let [red, green, blue] = [share(colour.r()), share(colour.g()), share(colour.b())];
-    Color32::from_rgba_premultiplied(red, green, blue, 89)
 }
 
 static DARK: Tokens = Tokens::new(true);
@@ -177,7 +166,6 @@ impl Tokens {
             reference: pick(dark, [0x94A3B8, 0x64748B]),
             evolute: pick(dark, [0xA78BFA, 0x6D4AE0]),
             comb,
-            comb_teeth: at_35_percent(comb),
             target: pick(dark, [0xF472B6, 0xC2257A]),
             good: pick(dark, [0x34D399, 0x0E7A55]),
             warning: pick(dark, [0xFB923C, 0xB04E08]),
