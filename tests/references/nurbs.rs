@@ -255,3 +255,46 @@ fn a_chain_of_beziers_is_the_same_curve() {
     }
     assert_eq!(circle().bezier_chain(), None, "a rational one has none");
 }
+
+#[test]
+fn a_glance_at_the_knots_tells_whether_there_is_a_float_polygon() {
+    let clamped = |degree: usize, count: usize| {
+        let inner = (0..=count - degree).map(|knot| knot as f64);
+        let last = (count - degree) as f64;
+        let knots = [vec![0.0; degree], inner.collect(), vec![last; degree]].concat();
+        let points = wave(degree, count, false).vertices().to_vec();
+        Nurbs::new(degree, knots, points, None, false).expect("a spline")
+    };
+    let chain = |nurbs: &Nurbs| nurbs.bezier_chain().expect("a chain");
+    let smooth = [(2, 7), (3, 9), (5, 11)].map(|(degree, count)| clamped(degree, count));
+    let chains: Vec<Nurbs> = smooth.iter().map(chain).collect();
+    // Corners and jumps of the second derivative at the joints.
+    let others = [2, 3, 5, 8].map(uneven);
+    let sharp = others.each_ref().map(chain);
+    let far = smooth.each_ref().map(|nurbs| {
+        let points = nurbs.points().iter().map(|it| *it + 1e6 * DVec3::X);
+        let knots = nurbs.knots().to_vec();
+        Nurbs::new(nurbs.degree(), knots, points.collect(), None, false).expect("a spline")
+    });
+    let all = smooth.iter().chain(&chains).chain(&others).chain(&sharp);
+    let all: Vec<&Nurbs> = all.chain(&far).collect();
+    let has: Vec<bool> = all.iter().map(|it| it.has_float_polygon()).collect();
+    let made: Vec<bool> = all.iter().map(|it| it.float_polygon().is_some()).collect();
+    assert_eq!(has, made);
+    let expected = [[true; 6].to_vec(), vec![false; 8], vec![true; 3]].concat();
+    assert_eq!(has, expected);
+    let [low, high] = smooth[1]
+        .points_along(16)
+        .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], it| {
+            [low.min(it), high.max(it)]
+        });
+    let curve = reference(smooth[1].clone());
+    for step in 0..=96 {
+        let point = curve.derivatives(f64::from(step) / 16.0, 0)[0];
+        let room = DVec3::splat(ROUNDING * 20.0);
+        assert!(
+            point.cmpge(low - room).all() && point.cmple(high + room).all(),
+            "{point}"
+        );
+    }
+}

@@ -173,6 +173,17 @@ impl Nurbs {
         values[n]
     }
 
+    /// Its points at so many even steps between each two knots, and at the knots.
+    pub fn points_along(&self, steps: usize) -> impl Iterator<Item = DVec3> {
+        self.spans().flat_map(move |knot| {
+            let [from, to] = [self.knots[knot], self.knots[knot + 1]];
+            let share = move |step: usize| step as f64 / steps as f64;
+            let at = move |step| from * (1.0 - share(step)) + to * share(step);
+            let points = (0..=steps).map(move |step| self.expansion(knot, at(step), 0));
+            points.filter_map(|values| values.first().copied())
+        })
+    }
+
     /// How many derivatives are continuous at all its knots.
     pub fn continuity(&self) -> usize {
         let inner = inner_knots(self.degree, &self.knots);

@@ -10,8 +10,8 @@ const EVEN: f64 = 1e-12;
 /// A curve whose ends lie this near, in units of its largest coordinate, may be periodic.
 const CLOSED: f64 = 1e-9;
 
-/// What joins with smoothness n − 1 within rounding has no jump of the first derivative above this, in units of the size
-/// about the joint.
+/// What joins with smoothness n − 1 within rounding has no jump of the first derivative above this, in units of the largest
+/// coordinate.
 const SMOOTH: f64 = 1e-6;
 
 /// Up to this degree and size a polynomial curve on even clamped knots loses no digits on the way to its float polygon.
@@ -76,12 +76,13 @@ impl Nurbs {
     fn joins_smoothly(&self) -> bool {
         let (n, points) = (self.degree(), self.points());
         let mut inner = (n..points.len() - 1).step_by(n);
+        let sizes = points.iter().map(|it| it.abs().max_element());
+        let size = sizes.fold(0.0, f64::max);
         n == 1
             || inner.all(|joint| {
                 let legs = [joint, joint + 1].map(|end| points[end] - points[end - 1]);
                 let weight = |index: usize| self.weights().map_or(1.0, |it| it[index]);
                 let [before, after] = [weight(joint - 1), weight(joint + 1)];
-                let size = points[joint].abs().max_element() + legs[0].length() + legs[1].length();
                 let jump = after * legs[1] - before * legs[0];
                 jump.length() <= SMOOTH * size * before.max(after)
             })

@@ -10,6 +10,7 @@ pub use super::choice::{ImportChoice, RowKey};
 use super::drawing::{Drawing, Item, Kind, Other, Shape, Space};
 use super::reading::Made;
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::references::ReferenceCurve;
 use crate::geometry::{ParametricCurve, significant};
 
 /// So many items come in unasked; more are worth a look before they fill the canvas.
@@ -123,16 +124,20 @@ impl FoundRow {
         self.rational += usize::from(splines().any(|nurbs| nurbs.weights.is_some()));
         self.periodic += usize::from(splines().any(|nurbs| nurbs.periodic));
         for shape in &item.shapes {
+            // To convert each curve only to count it would take long.
+            if let Some(nurbs) = shape.nurbs().and_then(|drawn| drawn.checked().ok())
+                && nurbs.has_float_polygon()
+            {
+                self.curves += 1;
+                nurbs.points_along(STEPS).for_each(|it| self.include(it));
+                continue;
+            }
             match Made::of(shape.clone()) {
-                Ok(Made::Curve(near)) => {
-                    self.curves += 1;
-                    self.reach(&near.polygon, STEPS);
-                }
                 Ok(Made::Reference(curve)) => {
                     self.references += usize::from(curve.form().is_smooth());
-                    self.reach(&curve, REFERENCE_STEPS);
+                    self.reach(&curve);
                 }
-                Err(_) => {
+                Ok(Made::Curve(_)) | Err(_) => {
                     if let Shape::Point(point) = shape {
                         self.include(*point);
                     }
@@ -141,12 +146,13 @@ impl FoundRow {
         }
     }
 
-    /// Widen the box by a curve.
-    fn reach(&mut self, curve: &dyn ParametricCurve, steps: usize) {
+    /// Widen the box by a reference.
+    fn reach(&mut self, curve: &ReferenceCurve) {
         for piece in 0..curve.pieces() {
-            for step in 0..=steps {
+            for step in 0..=REFERENCE_STEPS {
                 let mut point = [DVec3::ZERO];
-                curve.fill_derivatives(piece, step as f64 / steps as f64, &mut point);
+                let t = step as f64 / REFERENCE_STEPS as f64;
+                curve.fill_derivatives(piece, t, &mut point);
                 self.include(point[0]);
             }
         }
