@@ -161,7 +161,13 @@ pub static GLIF: Format = Format {
             holds: glif::holds,
             marks: Marks::NONE,
         };
-        drawn(document, &manner, losses, glif::write)
+        let bytes = drawn(document, &manner, losses, glif::write)?;
+        // The glyph has the name of its first contour.
+        let mut all = losses.losses.iter();
+        if let Some(first) = all.position(|(_, loss)| *loss == Loss::Unnamed) {
+            losses.losses.remove(first);
+        }
+        Ok(bytes)
     }),
     rewrite: Some(Rewriter {
         manner: Manner {

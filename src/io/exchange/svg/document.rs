@@ -128,7 +128,7 @@ struct Walk<'d> {
     used: Vec<NodeId>,
     /// What may still be spent.
     budget: usize,
-    /// How many bytes items may still take.
+    /// The room that is left for items.
     room: Room,
     /// Whether the budget or the number of items is used up.
     full: bool,
