@@ -306,7 +306,7 @@ fn match_ui(ui: &mut Ui, report: &EndFitReport) -> Option<EndFitAction> {
                 "Match the end again whenever the other curve changes",
             ),
             None => (
-                "Keep what is picked matched",
+                "Keep picks matched",
                 "Match the end to a picked place again whenever that curve changes",
             ),
         };

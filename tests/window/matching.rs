@@ -81,7 +81,7 @@ fn curvature_and_slope_are_fixed_typed_and_freed() {
 fn a_match_is_picked_shown_and_removed() {
     let mut window = window();
     click(&mut window, "G0");
-    click(&mut window, "Keep what is picked matched");
+    click(&mut window, "Keep picks matched");
     click(&mut window, "Pick from curve");
     let source = document(&window)
         .curves()
