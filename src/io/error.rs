@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::table_column::TableColumn;
+use super::table_column::{MOST_COLUMNS, TableColumn};
 use crate::document::{EditError, cut, escaped, quoted};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::ReferenceError;
@@ -275,15 +275,18 @@ pub enum Problem {
     /// A table of points does not tell which columns are x and y.
     #[error("which columns are x and y? There are {}: name them x and y, or choose them", listed(.0))]
     AmbiguousColumns(Vec<TableColumn>),
+    /// A line of a table has too many columns.
+    #[error("the line has more than {MOST_COLUMNS} columns: a table of points needs 2 or 3")]
+    TooManyColumns,
+    /// A table has too many lists of points.
+    #[error("the file has more than {0} lists of points: divide it")]
+    TooManyLists(usize),
     /// Columns of points have different units.
     #[error(
         "the columns are in {} and in {}: give all coordinates in one unit",
         .0[0].name(), .0[1].name()
     )]
     MixedUnits([LengthUnit; 2]),
-    /// The XML of a file is malformed.
-    #[error("{0}")]
-    Xml(String),
     /// The XML holds something else than tracks and routes.
     #[error("this is not a GPX file: it begins with <{}>", cut(.0))]
     NotGpx(String),
@@ -368,9 +371,14 @@ pub enum Problem {
     AmbiguousComma(String),
 }
 
+/// Name columns, of many the first.
 fn listed(columns: &[TableColumn]) -> String {
-    let columns: Vec<String> = columns.iter().map(ToString::to_string).collect();
-    columns.join(", ")
+    const MOST: usize = 30;
+    let named: Vec<String> = columns.iter().take(MOST).map(ToString::to_string).collect();
+    match columns.len().saturating_sub(MOST) {
+        0 => named.join(", "),
+        others => format!("{} and {others} more", named.join(", ")),
+    }
 }
 
 /// A reason why curves cannot be written in a format.

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-use super::error::{Place, Problem, ReadError, WriteError};
+use super::error::{Problem, ReadError, WriteError};
 use super::exchange::changes::Rewriter;
 use super::exchange::drawing::{Drawing, Unreadable};
 use super::loss::{DocumentLoss, Export, Loss, LossReport};
@@ -167,11 +167,7 @@ impl Format {
                     ..drawing
                 })
             }
-            Err(Unreadable { at, reason }) => Err(match (at, is_binary) {
-                (Some(at), false) => Place::line(at as usize).problem(Problem::Drawing(reason)),
-                (Some(at), true) => Problem::Drawing(format!("byte {at}: {reason}")).into(),
-                (None, _) => Problem::Drawing(reason).into(),
-            }),
+            Err(error) => Err(error.into_error(is_binary)),
         }
     }
 

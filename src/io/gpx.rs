@@ -1,14 +1,13 @@
 //! Tracks and routes of GPS devices in GPX, read only: each makes a list of points in metres.
 
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
 use super::error::{Place, Problem, ReadError};
 use super::format::{FileUnit, Format};
-use super::reading::Reading;
+use super::reading::{Reading, Remark};
 use super::table_points::{PointReader, Row};
 use super::tangent_plane::position;
-use super::text::{Lines, text};
-use crate::document::escaped;
+use super::xml::Source;
 use crate::geometry::expressions::LengthUnit;
 
 /// The row of the table of formats.
@@ -40,71 +39,76 @@ struct Path {
 /// [`ReadError`] with the line where the XML is malformed or a point has no position, or if there is
 /// neither a track nor a route.
 fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
-    let document = Document::parse(text(bytes)?).map_err(|error| {
-        let place = Place {
-            line: Some(error.pos().row as usize),
-            column: Some(error.pos().col as usize),
-            ..Place::default()
-        };
-        place.problem(Problem::Xml(escaped(&error.to_string())))
-    })?;
-    let lines = Lines::of(document.input_text());
+    let source = Source::new(bytes).map_err(|error| error.into_error(false))?;
+    let document = source.document().map_err(|error| error.into_error(false))?;
     let root = document.root_element();
     if root.tag_name().name() != "gpx" {
         return Err(Problem::NotGpx(root.tag_name().name().to_owned()).into());
     }
     let mut paths = Vec::new();
     for path in root.children() {
+        let name = name(path);
         match path.tag_name().name() {
-            "rte" => paths.push(Path::of(path, path, "rtept", &lines)?),
+            "rte" => paths.push(Path::of(path, name, "rtept", &source)?),
             "trk" => {
-                let segments = path
-                    .children()
-                    .filter(|it| it.tag_name().name() == "trkseg");
-                for segment in segments {
-                    paths.push(Path::of(path, segment, "trkpt", &lines)?);
+                for segment in named(path, "trkseg") {
+                    paths.push(Path::of(segment, name, "trkpt", &source)?);
                 }
             }
             _ => {}
         }
     }
-    let mut points = PointReader::new(None, ' ', Some(LengthUnit::Metre));
+    let mut points = PointReader::new(None, ' ', Some(LengthUnit::Metre), bytes.len());
     for path in paths {
         match path.rows.len() {
             0 | 1 => points.skip(path.line),
-            _ => points.add(path.line, path.name, path.rows, true),
+            _ => points.add(path.line, path.name, path.rows, true)?,
         }
     }
     let mut reading = Reading::default();
+    for told in &source.remarks {
+        reading.remarks.add(Remark::Drawn(told.clone()));
+    }
     points.finish(&mut reading)?;
-    match reading.is_empty() {
-        true => Err(Problem::NoTrack.into()),
-        false => Ok(reading),
+    match (reading.is_empty(), source.remarks.first()) {
+        (false, _) => Ok(reading),
+        (true, Some(damage)) => Err(Problem::Drawing(damage.clone()).into()),
+        (true, None) => Err(Problem::NoTrack.into()),
     }
 }
 
 impl Path {
-    /// Take the points of a track's segment or of a route, which has the name.
-    fn of(named: Node, path: Node, points: &str, lines: &Lines) -> Result<Self, ReadError> {
-        let mut names = named.children().filter(|it| it.tag_name().name() == "name");
-        let name = names.next().and_then(|it| it.text()).map(str::trim);
-        let points = path.children().filter(|it| it.tag_name().name() == points);
+    /// Take the points of a track's segment or of a route.
+    fn of(
+        path: Node,
+        name: Option<&str>,
+        points: &str,
+        source: &Source,
+    ) -> Result<Self, ReadError> {
         Ok(Self {
-            line: line(path, lines),
-            name: name.filter(|name| !name.is_empty()).map(str::to_owned),
-            rows: points
-                .map(|point| row(point, lines))
+            line: source.line_of(path) as usize,
+            name: name.map(str::to_owned),
+            rows: named(path, points)
+                .map(|point| row(point, source))
                 .collect::<Result<_, _>>()?,
         })
     }
 }
 
-fn line(node: Node, lines: &Lines) -> usize {
-    lines.number(node.range().start)
+/// The elements of a name in another one.
+fn named<'a, 'input>(node: Node<'a, 'input>, name: &str) -> impl Iterator<Item = Node<'a, 'input>> {
+    node.children()
+        .filter(move |it| it.tag_name().name() == name)
 }
 
-fn row(point: Node, lines: &Lines) -> Result<Row, ReadError> {
-    let line = line(point, lines);
+/// The name of a track or a route.
+fn name<'a>(path: Node<'a, '_>) -> Option<&'a str> {
+    let name = named(path, "name").next()?.text()?.trim();
+    (!name.is_empty()).then_some(name)
+}
+
+fn row(point: Node, source: &Source) -> Result<Row, ReadError> {
+    let line = source.line_of(point) as usize;
     let degrees = |attribute: &str| point.attribute(attribute)?.trim().parse().ok();
     let point = position(degrees("lat"), degrees("lon"));
     let point = point.map_err(|problem| Place::line(line).problem(problem))?;
@@ -130,9 +134,20 @@ mod tests {
       <trkpt lat="54.01" lon="10.01"/>
     </trkseg>
     <trkseg><trkpt lat="54.0" lon="10.0"/></trkseg>
+    <trkseg><trkpt lat="54.0" lon="10.0"/><trkpt lat="54.0" lon="10.0"/></trkseg>
   </trk>
   <rte><rtept lat="54.0" lon="10.0"/><rtept lat="54.01" lon="10.0"/></rte>
 </gpx>"#;
+
+    #[test]
+    fn a_track_that_is_cut_off_is_read_in_part() {
+        let text = &TRACK[..TRACK.find("<trkpt lat=\"54.01\"").unwrap() + 12];
+        let reading = GPX.read(text.as_bytes()).unwrap();
+        let points = reading.references[0].points().unwrap();
+        assert_eq!(points.len(), 2);
+        let told = reading.remarks.to_string();
+        assert!(told.contains("line 8: the file is damaged"), "{told}");
+    }
 
     #[test]
     fn tracks_and_routes_are_read_in_metres() {
@@ -143,7 +158,7 @@ mod tests {
             .iter()
             .map(|it| it.name.as_str())
             .collect();
-        assert_eq!(names, ["Bay", "points 2"]);
+        assert_eq!(names, ["Bay", "points 3"]);
         let points = reading.references[0].points().unwrap();
         assert_eq!(points.len(), 3);
         assert!(points.iter().all(|point| point.z == 0.0));
@@ -164,7 +179,7 @@ mod tests {
             told.contains("x east and y north of latitude 54.00"),
             "{told}"
         );
-        assert!(told.contains("line 8 was left out"), "{told}");
+        assert!(told.contains("lines 8 and 12 were left out"), "{told}");
         assert!(told.contains("line 11 was skipped"), "{told}");
     }
 
@@ -174,7 +189,10 @@ mod tests {
             let error = GPX.read(text.as_bytes()).unwrap_err().to_string();
             assert!(error.starts_with(expected), "{error}");
         };
-        check("<gpx>\n<trk></gpx>", "line 2, column 6: expected");
+        check(
+            "<gpx>\n<trk></gpx>",
+            "line 2: the file is damaged (expected",
+        );
         check("<kml/>", "this is not a GPX file: it begins with <kml>");
         check("<gpx/>", "there is no track and no route");
         check(

@@ -46,6 +46,7 @@ mod table_lines;
 mod table_points;
 mod tangent_plane;
 mod text;
+mod xml;
 
 pub use airfoil_order::AirfoilOrder;
 pub use dxf::DXF;

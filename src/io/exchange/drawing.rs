@@ -7,6 +7,8 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
+use crate::io::error::{Place, Problem, ReadError};
+
 /// An arc that misses so small an angle of a turn is a whole one.
 const WHOLE: f64 = 1e-12;
 
@@ -191,6 +193,18 @@ pub struct Unreadable {
     pub at: Option<u64>,
     /// What is wrong and what to do about it, as one sentence without a full stop.
     pub reason: String,
+}
+
+impl Unreadable {
+    /// Make an error of it, at a line or, in a binary file, at a byte.
+    pub(in crate::io) fn into_error(self, is_binary: bool) -> ReadError {
+        let Self { at, reason } = self;
+        match (at, is_binary) {
+            (Some(at), false) => Place::line(at as usize).problem(Problem::Drawing(reason)),
+            (Some(at), true) => Problem::Drawing(format!("byte {at}: {reason}")).into(),
+            (None, _) => Problem::Drawing(reason).into(),
+        }
+    }
 }
 
 impl Other {

@@ -9,7 +9,7 @@ const ITEMS: usize = 150_000;
 const ITEM_BYTES: usize = 32;
 
 /// The most items of a file of some length, those of all inserted blocks counted: as many as it could list one by one.
-pub(super) fn most_items(length: usize) -> usize {
+pub(in crate::io) fn most_items(length: usize) -> usize {
     ITEMS.max(length / ITEM_BYTES)
 }
 

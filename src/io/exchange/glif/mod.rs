@@ -11,9 +11,9 @@ mod writer;
 mod tests;
 
 use super::changes::Changes;
-use super::xml::Source;
 use crate::io::exchange::drawing::{Drawing, Item, Unreadable};
 use crate::io::loss::LossReport;
+use crate::io::xml::Source;
 
 /// Read the contours of a glyph.
 pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {

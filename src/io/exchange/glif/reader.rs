@@ -5,8 +5,8 @@ use roxmltree::{Document, Node, NodeId};
 
 use super::super::pieces::Pieces;
 use super::super::remarks::Remarks;
-use super::super::xml::Source;
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Space, Unreadable};
+use crate::io::xml::Source;
 
 /// Read the contours of a glyph. Returns also the element that each item comes from.
 pub(super) fn read(

@@ -5,11 +5,11 @@ use roxmltree::{Document, Node};
 
 use super::super::changes::Changes;
 use super::super::text_edits::TextEdits;
-use super::super::xml::Source;
 use super::reader;
 use super::writer::{Contour, contours};
 use crate::io::exchange::drawing::{Affine, Unreadable};
 use crate::io::loss::{Loss, LossReport};
+use crate::io::xml::Source;
 
 /// Write changes into the text of a glyph; the reason where that is not possible.
 pub(super) fn rewritten(

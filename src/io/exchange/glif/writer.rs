@@ -5,8 +5,8 @@ use std::fmt::Write;
 use glam::DVec3;
 
 use super::super::splines::{Piece, described, pieces};
-use super::super::xml::escaped;
 use crate::io::exchange::drawing::{Drawing, Item, Shape, Unreadable};
+use crate::io::xml::escaped;
 
 /// Write a glyph.
 pub(super) fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable> {

@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use roxmltree::{Document, Node, NodeId};
 
 use super::super::remarks::Remarks;
-use super::super::xml::Source;
 use super::lengths::{Along, Viewport, aspect_ratio, length, page, view_box};
 use super::maker::{Maker, Room};
 use super::names::{group_name, name};
@@ -15,6 +14,7 @@ use super::transforms::{fit, matrix, transform};
 use super::{paths, shapes};
 use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Space, Unreadable};
 use crate::io::exchange::spending::most_items;
+use crate::io::xml::Source;
 
 /// The most groups and uses inside one another. Each is a recursion, and drawings have about ten.
 const DEPTH_LIMIT: usize = 64;

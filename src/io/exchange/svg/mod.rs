@@ -24,9 +24,9 @@ mod writer;
 mod tests;
 
 use super::changes::Changes;
-use super::xml::Source;
 use crate::io::exchange::drawing::{Drawing, Item, Unreadable};
 use crate::io::loss::LossReport;
+use crate::io::xml::Source;
 
 /// Read the shapes of a drawing.
 pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {

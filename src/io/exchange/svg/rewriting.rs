@@ -8,7 +8,6 @@ use roxmltree::{Document, Node, NodeId};
 
 use super::super::changes::Changes;
 use super::super::text_edits::TextEdits;
-use super::super::xml::{Source, escaped};
 use super::document::{Placed, places};
 use super::lengths::page;
 use super::namespaces::{INKSCAPE, SODIPODI};
@@ -16,6 +15,7 @@ use super::writer::{number, subpath};
 use super::{paths, shapes};
 use crate::io::exchange::drawing::{Item, Shape, Unreadable};
 use crate::io::loss::{Loss, LossReport};
+use crate::io::xml::{Source, escaped};
 
 /// The width of the stroke of new paths, by the size of the page.
 const STROKE: f64 = 0.0005;

@@ -7,9 +7,9 @@ use std::fmt::Write;
 use glam::{DMat3, DVec3};
 
 use super::super::splines::{Piece, at, described, hull, pieces};
-use super::super::xml::escaped;
 use super::namespaces::{INKSCAPE, SVG};
 use crate::io::exchange::drawing::{Affine, Conic, Drawing, Item, Shape, Unreadable};
+use crate::io::xml::escaped;
 
 /// The largest part of an arc, in radians: the centre of a half turn is badly defined by its ends.
 const ARC_LIMIT: f64 = TAU / 3.0;
