@@ -24,7 +24,7 @@ use super::format::{FileUnit, Format, Writing};
 use super::json_layout;
 use super::loss::LossReport;
 use super::object::Version;
-use super::project_file::{FORMAT, ProjectFile, Version1, Version2};
+use super::project_file::{FORMAT, ProjectFile, Version1, Version2, WrittenProject};
 use super::reading::Reading;
 use super::text::text;
 use crate::document::{Document, escaped};
@@ -78,7 +78,7 @@ fn write(
     writing: &Writing,
     losses: &mut LossReport,
 ) -> Result<Vec<u8>, WriteError> {
-    let project = ProjectFile::of(document, writing.polygon.unwrap_or_default(), losses);
+    let project = WrittenProject::of(document, writing.polygon.unwrap_or_default(), losses);
     Ok(json_layout::to_text(&project).into_bytes())
 }
 

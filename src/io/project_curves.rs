@@ -4,7 +4,6 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::error::{Place, Problem, ReadError};
-use super::loss::LossReport;
 use super::object::{Object, UnknownKeys, Version};
 use super::polygon::FilePolygon;
 use super::project_symmetry::ProjectSymmetry;
@@ -76,7 +75,7 @@ struct Target {
 
 impl<V> ProjectCurve<V> {
     /// Write a curve by one of its polygons.
-    pub(super) fn of(curve: &Curve, kind: PolygonKind, losses: &mut LossReport) -> Object<Self, V> {
+    pub(super) fn of(curve: &Curve, kind: PolygonKind) -> Object<Self, V> {
         let planar = curve.polygon.is_planar();
         let coordinates = |vector| Coordinates::of(vector, planar);
         let target = |end| {
@@ -94,7 +93,6 @@ impl<V> ProjectCurve<V> {
         let symmetry = curve.symmetry.as_ref();
         let symmetry = symmetry.and_then(|it| ProjectSymmetry::of(it, planar));
         let polygon = FilePolygon::of(&curve.polygon, kind);
-        losses.extend(curve, polygon.losses(&curve.polygon));
         let written = Self {
             name: Some(curve.name.clone()),
             group: Some(&curve.group)
@@ -115,19 +113,17 @@ impl<V> ProjectCurve<V> {
         };
         Object::new(written).with_extras(curve.extras.clone())
     }
+}
 
-    /// Whether the curve has a key that version 1 does not know.
-    pub(super) fn needs_version_2(&self) -> bool {
-        let targets = self.targets.iter();
-        let mut targets =
-            targets.flat_map(|it| [&it.value.start, &it.value.end].into_iter().flatten());
-        !self.locked_vertices.is_empty()
-            || self.group.is_some()
-            || self.symmetry.is_some()
-            || targets.any(|Object { value, .. }| {
-                value.curvature.is_some() || value.normal.is_some() || value.slope.is_some()
-            })
-    }
+/// Whether a curve has a key that version 1 does not know.
+pub(super) fn needs_version_2(curve: &Curve) -> bool {
+    let mut targets = curve.targets.list().into_iter();
+    !curve.locked_vertices.is_empty()
+        || !curve.group.is_none()
+        || curve.symmetry.is_some()
+        || targets.any(|(_, target)| {
+            target.curvature.is_some() || target.normal.is_some() || target.slope.is_some()
+        })
 }
 
 impl<V> Object<ProjectCurve<V>, V> {

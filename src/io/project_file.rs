@@ -3,14 +3,15 @@
 //! One set of types reads and writes every version: in an older version the keys that came later are
 //! unknown ones.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 
 use super::error::{Problem, ReadError};
 use super::file_match::{FileMatch, MatchSource};
 use super::loss::LossReport;
 use super::object::{Object, UnknownKeys, Version};
-use super::project_curves::ProjectCurve;
+use super::polygon::FilePolygon;
+use super::project_curves::{ProjectCurve, needs_version_2};
 use super::project_guides::ProjectGuides;
 use super::project_matches::ProjectMatch;
 use super::project_references::ProjectReference;
@@ -55,15 +56,25 @@ impl Version for Version2 {
 }
 
 /// A project as a file of version `V` holds it.
-pub(super) type ProjectFile<V> = Object<Project<V>, V>;
+pub(super) type ProjectFile<V> = Object<Project<V, ReadCurves<V>, ReadReferences<V>>, V>;
+
+type ReadCurves<V> = Vec<Object<ProjectCurve<V>, V>>;
+type ReadReferences<V> = Vec<Object<ProjectReference, V>>;
+
+/// A project to be written.
+pub(super) type WrittenProject<'a> =
+    Object<Project<Version2, WrittenCurves<'a>, WrittenReferences<'a>>, Version2>;
 
 /// The known keys of a project.
 #[derive(Deserialize, Serialize)]
 #[serde(
     expecting = "a Batten project, which is a JSON object",
-    bound = "V: Version"
+    bound(
+        serialize = "V: Version, C: Serialize, R: Serialize",
+        deserialize = "V: Version, C: Deserialize<'de>, R: Deserialize<'de>"
+    )
 )]
-pub(super) struct Project<V> {
+pub(super) struct Project<V, C, R> {
     /// [`FORMAT`], if it is a project.
     #[serde(default)]
     format: Value,
@@ -73,9 +84,13 @@ pub(super) struct Project<V> {
     /// The unit of all coordinates.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     unit: Option<ByName<LengthUnit>>,
-    curves: Vec<Object<ProjectCurve<V>, V>>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    references: Vec<Object<ProjectReference, V>>,
+    curves: C,
+    #[serde(
+        default,
+        deserialize_with = "given",
+        skip_serializing_if = "Option::is_none"
+    )]
+    references: Option<R>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     matches: Vec<Object<ProjectMatch, V>>,
     /// The guide lines.
@@ -86,46 +101,87 @@ pub(super) struct Project<V> {
     numbers: Vec<Number>,
 }
 
-impl ProjectFile<Version2> {
+/// Take a value that is not null.
+fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(from).map(Some)
+}
+
+/// The curves of a document, each made when its turn to be written comes: drawings have many.
+pub(super) struct WrittenCurves<'a> {
+    document: &'a Document,
+    kind: PolygonKind,
+    /// The version of the file.
+    version: u64,
+}
+
+impl Serialize for WrittenCurves<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.document.curves().map(|(_, curve)| {
+            let mut written = ProjectCurve::<Version2>::of(curve, self.kind);
+            if self.version == Version2::NUMBER {
+                // An unknown key of version 1 must not become the group in version 2.
+                written.extras.remove(GROUP);
+            }
+            written
+        }))
+    }
+}
+
+/// The references of a document, made in the same way.
+pub(super) struct WrittenReferences<'a>(&'a Document);
+
+impl Serialize for WrittenReferences<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let references = self.0.references();
+        let references =
+            references.map(|(_, reference)| ProjectReference::of::<Version2>(reference));
+        serializer.collect_seq(references)
+    }
+}
+
+impl<'a> WrittenProject<'a> {
     /// Write a document with each curve held by one of its polygons. The file says the first version
     /// that holds all of it.
-    pub(super) fn of(document: &Document, kind: PolygonKind, losses: &mut LossReport) -> Self {
-        let curves = document.curves();
-        let references = document.references();
+    pub(super) fn of(document: &'a Document, kind: PolygonKind, losses: &mut LossReport) -> Self {
+        let has_references = document.references().next().is_some();
         let numbers = document.all_ids().map(CurveId::number);
         let numbers: Vec<u64> = numbers.collect();
         let is_counted = (0..).zip(&numbers).all(|(place, number)| place == *number);
         let numbers = if is_counted { Vec::new() } else { numbers };
-        let mut project = Project {
+        let unit = document.unit().map(ByName);
+        let matches: Vec<_> = FileMatch::all(document)
+            .iter()
+            .map(|matched| Object::new(matched.into()))
+            .collect();
+        let guides = ProjectGuides::of(document.guide_lines()).map(Object::new);
+        let is_new = unit.is_some()
+            || has_references
+            || !matches.is_empty()
+            || !numbers.is_empty()
+            || guides.is_some()
+            || document.curves().any(|(_, curve)| needs_version_2(curve));
+        let version = match is_new {
+            true => Version2::NUMBER,
+            false => Version1::NUMBER,
+        };
+        for (_, curve) in document.curves() {
+            let polygon = FilePolygon::of(&curve.polygon, kind);
+            losses.extend(curve, polygon.losses(&curve.polygon));
+        }
+        let project = Project {
             format: FORMAT.into(),
-            version: Version1::NUMBER.into(),
-            unit: document.unit().map(ByName),
-            curves: curves
-                .map(|(_, curve)| ProjectCurve::of(curve, kind, losses))
-                .collect(),
-            references: references
-                .map(|(_, reference)| ProjectReference::of(reference))
-                .collect(),
-            matches: FileMatch::all(document)
-                .iter()
-                .map(|matched| Object::new(matched.into()))
-                .collect(),
-            guides: ProjectGuides::of(document.guide_lines()).map(Object::new),
+            version: version.into(),
+            unit,
+            curves: WrittenCurves {
+                document,
+                kind,
+                version,
+            },
+            references: has_references.then_some(WrittenReferences(document)),
+            matches,
+            guides,
             numbers: numbers.iter().map(|it| Number(*it as usize)).collect(),
         };
-        if project.unit.is_some()
-            || !project.references.is_empty()
-            || !project.matches.is_empty()
-            || !project.numbers.is_empty()
-            || project.guides.is_some()
-            || project.curves.iter().any(|it| it.value.needs_version_2())
-        {
-            project.version = Version2::NUMBER.into();
-            // An unknown key of version 1 must not become the group in version 2.
-            for curve in &mut project.curves {
-                curve.extras.remove(GROUP);
-            }
-        }
         Object::new(project).with_extras(document.extras().clone())
     }
 }
@@ -156,7 +212,9 @@ impl<V: Version> ProjectFile<V> {
         }
         keys.remark(&mut remarks);
         let mut references = Vec::new();
-        for (number, Object { value, extras, .. }) in (1..).zip(project.references) {
+        for (number, Object { value, extras, .. }) in
+            (1..).zip(project.references.unwrap_or_default())
+        {
             let reference = value.into_reference(number)?;
             for (key, _) in extras.iter() {
                 let reference = (number, reference.name.clone());

@@ -117,7 +117,7 @@ fn read_columns(bytes: &[u8], choice: Option<&ColumnChoice>) -> Result<Reading, 
     }
     let mut decimals = Decimals::default();
     let mut reading = Reading::default();
-    let mut points = PointReader::new(choice, separator, comments.unit);
+    let mut points = PointReader::new(choice, separator, comments.unit, text.len());
     for section in sections {
         match section {
             Section::Curve(block) => {
@@ -219,6 +219,11 @@ fn sections<'a>(
                     continue;
                 }
             }
+        }
+        if let LineContent::Fields(fields) = &line.content
+            && fields.are_too_many()
+        {
+            return Err(Place::line(line.number).problem(Problem::TooManyColumns));
         }
         let is_blank = matches!(line.content, LineContent::Blank);
         let begins = !is_blank && sections.last().is_none_or(|last| last.ends_before(&line));

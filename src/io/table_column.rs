@@ -4,6 +4,9 @@ use std::fmt;
 
 use crate::document::quoted;
 
+/// So many columns a line has at most: as many as spreadsheets know.
+pub const MOST_COLUMNS: usize = 16_384;
+
 /// A column as messages and dialogs show it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TableColumn {

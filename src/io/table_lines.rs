@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use csv::{ReaderBuilder, StringRecord};
 
 use super::decimals::{is_number, measured};
+use super::table_column::MOST_COLUMNS;
 use super::table_header::begins_table;
 
 /// What may stand between fields, in the order of preference; a space stands for any run of blanks.
@@ -53,18 +54,26 @@ pub(super) struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// Split a line at a separator. A quoted field may hold the separator.
+    /// Split a line at a separator; of too many fields the first. A quoted field may hold the separator.
     pub(super) fn of(line: &'a str, separator: char) -> Self {
+        const MOST: usize = MOST_COLUMNS + 1;
         let mut values: Vec<Cow<str>> = match separator {
             // In lists such as X=1.5 Y=2.5 a name may touch its number.
-            ' ' => words(line).map(Cow::Borrowed).collect(),
+            ' ' => words(line).map(Cow::Borrowed).take(MOST).collect(),
             _ if line.contains('"') => unquoted(line, separator),
-            _ => line.split(separator).map(trimmed).collect(),
+            _ => line.split(separator).map(trimmed).take(MOST).collect(),
         };
         let width = values.len();
         let filled = values.iter().rposition(|value| !value.is_empty());
         values.truncate(filled.map_or(0, |last| last + 1));
+        // Files have hundreds of thousands of lines.
+        values.shrink_to_fit();
         Self { values, width }
+    }
+
+    /// Whether there are more than tables have.
+    pub(super) fn are_too_many(&self) -> bool {
+        self.width > MOST_COLUMNS
     }
 
     /// How many of them are numbers, with a unit behind them or without.

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer, uncounted, upper_first};
 use super::decimals::{Decimals, is_number, measured};
 use super::error::{Place, Problem, ReadError};
+use super::exchange::spending::most_items;
 use super::reading::{Reading, Remark, Remarks, nameless};
 use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, Coordinates, WEIGHT, columns};
 use super::table_lines::{Fields, LineContent, TableLine};
@@ -40,6 +41,7 @@ pub(super) struct PointReader<'a> {
     separator: char,
     unit: Option<LengthUnit>,
     lists: Vec<List>,
+    most_lists: usize,
     skipped: Vec<usize>,
     repeated: Vec<usize>,
     too_large: Option<(String, Vec<usize>)>,
@@ -113,17 +115,19 @@ impl PointSection<'_> {
 }
 
 impl<'a> PointReader<'a> {
-    /// Begin; `unit` is the one that a line of the file says.
+    /// Begin on a file of a length in bytes; `unit` is the one that a line of it says.
     pub(super) fn new(
         choice: Option<&'a ColumnChoice>,
         separator: char,
         unit: Option<LengthUnit>,
+        length: usize,
     ) -> Self {
         Self {
             choice,
             separator,
             unit,
             lists: Vec::new(),
+            most_lists: most_items(length),
             skipped: Vec::new(),
             repeated: Vec::new(),
             too_large: None,
@@ -180,7 +184,7 @@ impl<'a> PointReader<'a> {
                 None if is_on_earth => None,
                 None => is_selig(&points).then_some(AirfoilOrder::Selig),
             };
-            self.add(section.line, own.or(numbered), block.rows, is_on_earth);
+            self.add(section.line, own.or(numbered), block.rows, is_on_earth)?;
             if let (Some(order), Some(added)) = (order, self.lists.last()) {
                 let name = added.name.clone();
                 self.remarks.add(Remark::Airfoil { name, order });
@@ -197,7 +201,14 @@ impl<'a> PointReader<'a> {
         reading.unit = reading.unit.or(self.unit);
         let mut lists = std::mem::take(&mut self.lists);
         self.project(&mut lists);
+        let several = lists.len() > 1;
         for (list, number) in lists.into_iter().zip(1..) {
+            // A receiver that stands still makes a list of one point.
+            let first = list.rows.first().map(|row| row.point);
+            if several && list.rows.iter().all(|row| Some(row.point) == first) {
+                self.repeated.extend(list.rows.iter().map(|row| row.line));
+                continue;
+            }
             let reference = self.reference(number, list)?;
             reading.references.push(reference);
         }
@@ -411,6 +422,9 @@ impl<'a> PointReader<'a> {
     }
 
     /// Divide a section at its blank lines.
+    ///
+    /// # Errors
+    /// [`ReadError`] with the line: there are too many blocks of several rows, or the decimals are mixed.
     fn blocks(
         &mut self,
         section: &PointSection,
@@ -419,9 +433,12 @@ impl<'a> PointReader<'a> {
     ) -> Result<Vec<Block>, ReadError> {
         let mut blocks = Vec::new();
         let mut block = Block::default();
+        let mut lists = self.lists.len();
         for line in &section.lines {
             let LineContent::Fields(fields) = &line.content else {
                 if !block.rows.is_empty() {
+                    lists += usize::from(block.rows.len() > 1);
+                    self.check_count(lists, line.number)?;
                     blocks.push(std::mem::take(&mut block));
                 }
                 continue;
@@ -505,20 +522,33 @@ impl<'a> PointReader<'a> {
     }
 
     /// Add a list of points; `first` is the line where it begins.
+    ///
+    /// # Errors
+    /// [`Problem::TooManyLists`] with the line.
     pub(super) fn add(
         &mut self,
         first: usize,
         name: Option<String>,
         rows: Vec<Row>,
         is_on_earth: bool,
-    ) {
+    ) -> Result<(), ReadError> {
         let number = self.lists.len() + 1;
+        self.check_count(number, rows.first().map_or(first, |row| row.line))?;
         self.lists.push(List {
             line: first,
             name: name.unwrap_or_else(|| nameless(number)),
             rows,
             is_on_earth,
         });
+        Ok(())
+    }
+
+    /// Refuse more lists than the file can have, at a line.
+    fn check_count(&self, lists: usize, line: usize) -> Result<(), ReadError> {
+        match lists > self.most_lists {
+            true => Err(Place::line(line).problem(Problem::TooManyLists(self.most_lists))),
+            false => Ok(()),
+        }
     }
 
     /// Make a reference of a list, without repeated points.
