@@ -139,6 +139,7 @@ fn harmonised(part: &Approximation, most: usize, progress: &Progress) -> Option<
             inflections: None,
             torsion_extrema: None,
             largest_deviation: Some(farthest),
+            symmetry: None,
         };
         let found = harmonise(&part.polygon, &harmony, progress).ok()?;
         // The deviation of the part is told as a bound.

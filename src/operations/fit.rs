@@ -7,7 +7,7 @@ use super::error::OperationError;
 use super::fit_piece::{Piece, features, pieces};
 use super::fit_warnings::warnings;
 use super::inputs::Inputs;
-use super::lists::{given, given_count};
+use super::lists::{check_parity, given, given_count};
 use super::operands::Operands;
 use super::operation::Operation;
 use super::outcome::{Annotation, Deviation, Figure, Outcome};
@@ -457,16 +457,8 @@ fn mirror(values: &Values) -> Result<Option<SymmetryAxis>, OperationError> {
             second: other.label,
         });
     }
-    for (parameter, rest, needed) in [(&EXTREMA, 1, "odd"), (&INFLECTIONS, 0, "even")] {
-        let count = given_count(values, parameter).filter(|count| count % 2 != rest);
-        if let (Some(_), Some(count)) = (mirror, count) {
-            return Err(OutOfRange {
-                label: parameter.label,
-                value: count.to_string().into(),
-                needed: format!("{needed}, as the curve is symmetric,").into(),
-            }
-            .into());
-        }
+    if mirror.is_some() {
+        check_parity(values, [(&EXTREMA, 1), (&INFLECTIONS, 0)])?;
     }
     Ok(mirror)
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::editable::{check_measurable, editable};
 use super::error::OperationError;
 use super::inputs::Inputs;
-use super::lists::{LOCKED, given, given_count, locked};
+use super::lists::{LOCKED, check_parity, given, given_count, locked};
 use super::matches::kept_places;
 use super::operands::Operands;
 use super::operation::Operation;
@@ -19,7 +19,7 @@ use super::values::Values;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::harmonising::{
-    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows, harmonise,
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, folds, follows, harmonise,
 };
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
@@ -183,10 +183,19 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         _ => None,
     };
     let chosen = [chosen(&KEEP_START), chosen(&KEEP_END)];
-    let required = match stretch {
+    let mut required = match stretch {
         Some(_) => chosen.map(|held| (held, None)),
         None => [0, 1].map(|index| raised(input.document(), id, End::BOTH[index], chosen[index])),
     };
+    let symmetry = curve.symmetry.filter(|_| stretch.is_none());
+    if let Some(symmetry) = symmetry.filter(|_| !curve.polygon.is_periodic()) {
+        // Mirror images keep the same.
+        let most = required[0].0.max(required[1].0);
+        required.iter_mut().for_each(|(held, _)| *held = most);
+        if symmetry.planes().next().is_some() && curve.polygon.is_planar() {
+            check_parity(values, [(&EXTREMA, 1), (&INFLECTIONS, 0)])?;
+        }
+    }
     let asked = |parameter| given_count(values, parameter);
     let locked = locked(curve, values)?;
     let most = given(values, &MAX_DEVIATION);
@@ -201,6 +210,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         inflections: asked(&INFLECTIONS),
         torsion_extrema: asked(&TORSION_EXTREMA),
         largest_deviation: most,
+        symmetry,
     };
     let progress = limited(progress, values);
     let found = match harmonise(&curve.polygon, &harmony, &progress) {
@@ -239,7 +249,8 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         format!("Vertex {vertex} moves by {distance}, farther than the polygon is large: ask for more features")
     });
     let torn = torn(&curve.polygon, &found.polygon);
-    let is_wrong = turned.is_some() || flung.is_some() || torn.is_some();
+    let folds = folds(&curve.polygon, &found.polygon);
+    let is_wrong = turned.is_some() || flung.is_some() || torn.is_some() || folds;
     let failed = is_wrong.then_some(Requirement::Failed { left: None });
     let requirements = found.requirements.iter().cloned().chain(failed);
     outcome.requirements = vec![(id, requirements.collect())];

@@ -5,7 +5,7 @@ use super::parameter::{ANY, Kind, Parameter};
 use super::values::Values;
 use crate::document::Curve;
 use crate::geometry::PolygonError;
-use crate::geometry::parameters::Quantity;
+use crate::geometry::parameters::{OutOfRange, Quantity};
 
 /// Vertices that an operation must not move, beside those that are locked in the document.
 pub(super) const LOCKED: Parameter = Parameter {
@@ -38,6 +38,30 @@ pub(super) fn locked(curve: &Curve, values: &Values) -> Result<Vec<usize>, Opera
         locked.push(index);
     }
     Ok(locked)
+}
+
+/// Refuse numbers of features that an open symmetric curve cannot have, each parameter with its remainder by two: there
+/// is an extremum in the middle, and all else comes in pairs.
+///
+/// # Errors
+/// [`OperationError::OutOfRange`].
+pub(super) fn check_parity(
+    values: &Values,
+    parameters: [(&Parameter, usize); 2],
+) -> Result<(), OperationError> {
+    for (parameter, remainder) in parameters {
+        let count = given_count(values, parameter).filter(|count| count % 2 != remainder);
+        let needed = ["even", "odd"][remainder % 2];
+        if let Some(count) = count {
+            return Err(OutOfRange {
+                label: parameter.label,
+                value: count.to_string().into(),
+                needed: format!("{needed}, as the curve is symmetric,").into(),
+            }
+            .into());
+        }
+    }
+    Ok(())
 }
 
 /// The number of a list of one, if it is given.

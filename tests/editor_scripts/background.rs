@@ -209,3 +209,47 @@ fn a_result_that_warns_is_shown_before_it_is_applied() {
     script.editor.operating().apply().expect("it is seen now");
     assert_eq!(script.steps(), 1);
 }
+
+#[test]
+fn the_best_found_is_shown_before_it_is_applied() {
+    let wave = |index: u8| {
+        let angle = 0.2 * f64::from(index);
+        let radius = 10.0 + 0.3 * f64::from(index % 3);
+        (radius * angle.cos(), radius * angle.sin())
+    };
+    let points: Vec<(f64, f64)> = (0..16).map(wave).collect();
+    let polygon = FloatPolygon::planar(4, &points).expect("a polygon");
+    let mut script = Script {
+        editor: Editor::with_document(Document::from_curves([Curve::new("wave", polygon)])),
+    };
+    let woken = prove_in_background(&mut script, Duration::ZERO);
+    script.try_out("harmonise").expect("an operation");
+    script
+        .set("extrema", Value::List(vec![0.0]))
+        .expect("a number");
+    let none = Value::List(vec![1e-9]);
+    script.set("max-deviation", none).expect("a number");
+    script
+        .editor
+        .operating()
+        .apply()
+        .expect("nothing is refused");
+    while script
+        .editor
+        .operation()
+        .is_some_and(OperationInProgress::is_pending)
+    {
+        woken.recv_timeout(LONG).expect("the frame is woken");
+        script.editor.begin_frame();
+    }
+    assert_eq!(script.steps(), 0);
+    let message = script.editor.message().expect("a message");
+    assert!(
+        message.warns && message.text.starts_with("Not applied yet"),
+        "{message:?}"
+    );
+    script.key(Key::Escape);
+    let message = script.editor.message().expect("a message");
+    assert_eq!(message.text, "Harmonise: cancelled");
+    assert!(script.editor.previewed_operation().is_none());
+}

@@ -3,9 +3,10 @@
 use batten::document::{Curve, Document};
 use batten::geometry::distance::SideDeviation;
 use batten::geometry::fairing::requirement::Requirement;
+use batten::geometry::features::{Feature, Features};
 use batten::geometry::{End, FloatPolygon, Mirror, Progress, Symmetry};
 use batten::operations::{ALL, Deviation, Value};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::common::{Random, check_symmetry};
 use crate::runner::Runner;
@@ -365,6 +366,83 @@ fn a_curve_that_shall_stay_symmetric_does() {
     let symmetry = curves[0].symmetry.expect("a rule");
     assert_eq!(symmetry.mirror(), Mirror::of_coordinate(1));
     check_symmetry(&curves[0]).expect("a symmetric curve");
+}
+
+/// The left half of a bottle that was traced by hand, down to its middle.
+const TRACED: [(f64, f64); 36] = [
+    (-12.3, 250.7),
+    (-13.0, 242.9),
+    (-13.5, 235.0),
+    (-13.8, 226.9),
+    (-13.9, 218.7),
+    (-13.8, 210.5),
+    (-13.7, 202.1),
+    (-13.7, 193.8),
+    (-14.3, 185.6),
+    (-15.7, 177.6),
+    (-18.0, 169.8),
+    (-21.1, 162.2),
+    (-24.7, 154.7),
+    (-28.2, 147.1),
+    (-31.3, 139.5),
+    (-33.6, 131.8),
+    (-35.2, 123.9),
+    (-36.1, 115.8),
+    (-36.8, 107.5),
+    (-37.4, 99.0),
+    (-37.6, 90.6),
+    (-37.1, 82.6),
+    (-36.1, 75.1),
+    (-35.2, 67.5),
+    (-35.4, 59.1),
+    (-37.1, 49.7),
+    (-39.2, 40.2),
+    (-39.6, 32.0),
+    (-37.5, 25.6),
+    (-35.4, 18.8),
+    (-37.0, 8.5),
+    (-34.3, 0.1),
+    (-22.6, -0.6),
+    (-13.6, -0.2),
+    (-6.5, -0.6),
+    (0.0, -0.8),
+];
+
+#[test]
+fn a_symmetric_curve_is_harmonised_as_its_own_mirror_image() {
+    // About a slanted line: the fit has to turn the curve.
+    let turn = DVec2::from_angle(0.7);
+    let placed =
+        |x: f64, y: f64| (turn.rotate(DVec2::new(x, y)) + DVec2::new(30.0, -20.0)).extend(0.0);
+    let left = TRACED.iter().map(|(x, y)| placed(*x, *y));
+    let right = TRACED[..35].iter().rev().map(|(x, y)| placed(-x, *y));
+    let polygon = FloatPolygon::new(5, left.chain(right).collect(), None, false);
+    let mirror = Mirror::through(placed(0.0, 0.0), placed(0.0, 100.0)).expect("a line");
+    let polygon = polygon.expect("a polygon");
+    let curve = Curve::new("bottle", polygon.clone());
+    let curve = curve.with_symmetry(Symmetry::about(mirror, &polygon));
+    let runner = Runner::curves(vec![curve.expect("a symmetric curve")]);
+    let count = |feature| Features::new(runner.polygon()).count(feature);
+    assert!(count(Feature::CurvatureExtremum) >= 17);
+    let asked = |extrema: f64| {
+        [("extrema", extrema), ("inflections", 4.0)]
+            .map(|(name, count)| (name, Value::List(vec![count])))
+    };
+    let (outcome, curves) = runner.done("harmonise", &asked(11.0));
+    let told = &outcome.remarks;
+    assert!(told.iter().all(|it| !it.contains("corrected")), "{told:?}");
+    check_symmetry(&curves[0]).expect("a symmetric curve");
+    let features = Features::new(&curves[0].polygon);
+    assert_eq!(features.count(Feature::CurvatureExtremum), 11);
+    assert_eq!(features.count(Feature::Inflection), 4);
+    assert!(
+        matches!(outcome.deviation, Deviation::Measured(by) | Deviation::AtMost(by) if by < 3.0)
+    );
+    let refused = runner.refused("harmonise", &asked(10.0));
+    assert!(
+        refused.contains("odd, as the curve is symmetric"),
+        "{refused}"
+    );
 }
 
 /// A random curve that stays symmetric: about the y axis, both axes or a slanted line.

@@ -60,7 +60,10 @@ impl Editor {
                 return self.operating().restore_values();
             }
             Input::Key(Key::Escape) if previews && !drags_handle => {
-                return self.operating().leave();
+                let ended = previewed.map(OperationInProgress::ended);
+                self.operating().leave();
+                self.message = ended.and_then(|it| Message::of(&Ok(it)));
+                return;
             }
             Input::Key(Key::Escape)
                 if self.hand.tool() == ToolKind::Select

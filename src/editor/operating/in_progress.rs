@@ -154,13 +154,16 @@ impl OperationInProgress {
         }
     }
 
-    /// Whether the run has warnings that nobody could see yet. The best of a search was seen before, and single steps of the
-    /// end fit are no result.
-    pub(super) fn is_unseen(&self) -> bool {
+    /// Whether the run has warnings that nobody could see yet, beside some that were seen, or has not reached what was asked
+    /// for. Searches show the best that they have found, and single steps of the end fit are no result.
+    pub(super) fn is_unseen(&self, seen: &[String]) -> bool {
+        let is_new = |run: &Run| seen.is_empty() || run.warnings().any(|it| !seen.contains(it));
+        let warns = |run: &Run| !self.operation.can_be_stopped() && run.warns() && is_new(run);
         !self.is_applied()
             && self.end_fit.is_none_or(EndFitStep::is_joint)
-            && !self.operation.can_be_stopped()
-            && self.finished().is_some_and(Run::warns)
+            && self
+                .finished()
+                .is_some_and(|run| run.falls_short() || warns(run))
     }
 
     /// Whether the run can be stopped with the best found so far.
@@ -383,8 +386,25 @@ impl Run {
 
     /// Whether the user may not want the result of any item.
     pub(super) fn warns(&self) -> bool {
-        let mut others = self.others.iter().filter_map(|it| it.result.as_ref().ok());
-        self.report.warns() || others.any(|(_, report)| report.warns())
+        self.reports().any(Report::warns)
+    }
+
+    /// The warnings of all items.
+    pub(super) fn warnings(&self) -> impl Iterator<Item = &String> {
+        self.reports().flat_map(|report| &report.warnings)
+    }
+
+    /// Whether the result of an item is the best that was found, and not what was asked for.
+    fn falls_short(&self) -> bool {
+        self.reports()
+            .any(|report| report.useful && !report.reached)
+    }
+
+    fn reports(&self) -> impl Iterator<Item = &Report> {
+        let others = self.others.iter().filter_map(|it| it.result.as_ref().ok());
+        [&self.report]
+            .into_iter()
+            .chain(others.map(|(_, report)| report))
     }
 
     /// Say what was done, of several items line by line; those without a result are always named.

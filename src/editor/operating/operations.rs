@@ -110,7 +110,7 @@ impl Operating<'_> {
         end_fit: Option<EndFitStep>,
     ) -> Reply {
         let begun = self.preview(operation, input, given, end_fit);
-        let is_unseen = self.previewed().is_some_and(OperationInProgress::is_unseen);
+        let is_unseen = self.previewed().is_some_and(|it| it.is_unseen(&[]));
         if begun.is_ok() && end_fit.is_some() && is_unseen {
             return Ok(held_back());
         }
@@ -466,9 +466,13 @@ impl Operating<'_> {
         if let Ok(run) = &run {
             current.handles.clone_from(&run.outcome.handles);
         }
+        let seen = current
+            .finished()
+            .map(|run| run.warnings().cloned().collect());
+        let seen: Vec<String> = seen.unwrap_or_default();
         current.run = Some(run);
         current.pending = false;
-        let holds_back = current.applies && current.is_unseen();
+        let holds_back = current.applies && current.is_unseen(&seen);
         current.applies &= !holds_back;
         let applies = current.applies;
         match current.stage {

@@ -121,6 +121,7 @@ fn harmonised(
         inflections: Some(usize::from(!task.is_convex())),
         torsion_extrema: None,
         largest_deviation: None,
+        symmetry: None,
     };
     least_change(polygon, &harmony, progress).map_err(|error| match error {
         HarmonyError::Cancelled => BetweenError::Cancelled,

@@ -13,6 +13,7 @@ use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::harmony;
 use crate::geometry::polygon_figures::{FOLD, turning_angles};
 use crate::geometry::progress::Progress;
+use crate::geometry::symmetry::Symmetry;
 
 /// A curve without some of the features that stand out must be so many times nearer than one with all of them.
 const LOST: f64 = 3.0;
@@ -63,6 +64,17 @@ pub struct Harmony<'a> {
     pub torsion_extrema: Option<usize>,
     /// Largest move of the curve, as a length.
     pub largest_deviation: Option<f64>,
+    /// The rule that the polygon follows and shall follow; without effect on a stretch.
+    pub symmetry: Option<Symmetry>,
+}
+
+impl Harmony<'_> {
+    /// Make the rule hold for a polygon that was found; as it is without one, and where numbers overflow.
+    pub(super) fn completed(&self, polygon: FloatPolygon) -> FloatPolygon {
+        let symmetry = self.symmetry.filter(|_| self.stretch.is_none());
+        let completed = symmetry.and_then(|it| it.completed(&polygon, |_| true).ok());
+        completed.unwrap_or(polygon)
+    }
 }
 
 /// Result of harmonising.
@@ -192,7 +204,7 @@ pub fn flung(before: &FloatPolygon, after: &FloatPolygon) -> Option<(usize, f64)
 }
 
 /// Whether a polygon turns back at a vertex where it did not before: nobody takes that for harmonious.
-pub(super) fn folds(before: &FloatPolygon, after: &FloatPolygon) -> bool {
+pub fn folds(before: &FloatPolygon, after: &FloatPolygon) -> bool {
     let mut pairs = turning_angles(before).zip(turning_angles(after));
     pairs.any(|((_, before), (_, after))| before <= FOLD && after > FOLD)
 }

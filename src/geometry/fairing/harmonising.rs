@@ -15,7 +15,7 @@ use crate::geometry::harmony::unevenness;
 use crate::geometry::progress::Progress;
 
 pub use super::harmonised::{
-    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows,
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, folds, follows,
 };
 
 /// The weight ε at which the search begins.
@@ -212,6 +212,7 @@ pub fn least_change(
         problem: first,
         apart: requirements.iter().filter(is_apart).cloned().collect(),
         requirements: &requirements,
+        harmony,
         stretch,
         request,
         most: harmony.largest_deviation.unwrap_or(f64::INFINITY),
@@ -325,6 +326,7 @@ fn over_the_seam(
     let harmony = Harmony {
         stretch: Some([from - first, to - first + count as f64]),
         locked: &locked,
+        symmetry: None,
         ..harmony.clone()
     };
     let found = harmonise(&polygon.begun_at(seam), &harmony, progress)?;
@@ -454,6 +456,7 @@ struct Search<'a> {
     /// All of them but the features.
     apart: Vec<Requirement>,
     polygon: &'a FloatPolygon,
+    harmony: &'a Harmony<'a>,
     stretch: [f64; 2],
     request: CountRequest,
     most: f64,
@@ -557,6 +560,7 @@ impl Search<'_> {
         let Ok(polygon) = self.problem.polygon(vertices) else {
             return Ok(CountVerdict::TooMany);
         };
+        let polygon = self.harmony.completed(polygon);
         // What samples show already needs no proof.
         let looks = seen(&polygon, self.stretch);
         if looks.exceeds(self.request.counts) {

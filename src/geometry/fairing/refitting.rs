@@ -58,12 +58,14 @@ pub(super) fn fitted(
             inflections,
             kept,
             locked,
+            symmetry: harmony.symmetry,
         };
         let refitted = refit(polygon, &asked, &progress.hurried(share))?;
         let is_limit = |it: &Requirement| matches!(it, Requirement::Limit { .. });
         let requirements = known.requirements.iter().filter(|it| !is_limit(it));
         let requirements: Vec<Requirement> = requirements.cloned().collect();
         let refitted = with_ends(refitted, &requirements, locked, progress);
+        let refitted = harmony.completed(refitted);
         let features = Features::proved(&refitted, |_| !progress.is_cancelled())?;
         let found = counted(&features, true, None);
         let displaced = displaced_inflection([polygon, &refitted], [own, &features]);
