@@ -15,6 +15,7 @@ use super::file_dialogs::{AfterDiscard, Chosen, FileDialogs, Purpose};
 use super::gizmo::gizmo_ui;
 use super::help::{self, Help, Topic};
 use super::import_panel::{ImportAnswer, ImportPanel};
+use super::judging::Judging;
 use super::keyboard::{self, KeyCommand, Keyboard, Typing};
 use super::layer_strip::layer_strip_ui;
 use super::menu::menu_ui;
@@ -60,6 +61,8 @@ pub struct App {
     dialog: Option<Dialog>,
     import: ImportPanel,
     export: ExportPanel,
+    /// The document that is judged as it was before.
+    judged: Option<u64>,
     /// Actions that wait for the end of the frame.
     actions: Vec<Action>,
     /// The title that the window has now.
@@ -131,6 +134,7 @@ impl App {
             dialog: None,
             import: ImportPanel::default(),
             export: ExportPanel::default(),
+            judged: None,
             actions: Vec::new(),
             title: String::new(),
             leaving: false,
@@ -166,6 +170,7 @@ impl App {
         self.take_dropped_files(&context);
         self.take_keys(&context);
         self.canvas.send_events(&context, &mut self.editor);
+        self.follow_judging();
         self.editor.refresh();
         self.editor.view_mut().hover_nothing();
         self.editor.view_mut().harmony = false;
@@ -183,6 +188,24 @@ impl App {
         self.update_title(&context);
         self.watch_closing(&context);
         self.keep(&context);
+    }
+
+    /// Judge a document that was opened as it was judged before, and keep how it is judged.
+    fn follow_judging(&mut self) {
+        let workspace = self.editor.workspace();
+        let path = workspace.path().map(Path::to_owned);
+        let opening = Some(workspace.opening());
+        let is_new = std::mem::replace(&mut self.judged, opening) != opening;
+        let Some(path) = path else {
+            return;
+        };
+        if is_new && let Some(known) = self.shell.judging_of(&path).cloned() {
+            known.restore(&mut self.editor);
+        }
+        let now = Judging::of(&self.editor);
+        if self.shell.judging_of(&path) != Some(&now) {
+            self.shell.keep_judging(&path, now);
+        }
     }
 
     /// Autosave unsaved changes, and check the file when the window gets the

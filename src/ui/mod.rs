@@ -42,6 +42,7 @@ mod inspector;
 mod item_fields;
 mod items_panel;
 mod joint_list;
+mod judging;
 mod key_list;
 mod key_order;
 mod keyboard;

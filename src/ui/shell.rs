@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::judging::Judging;
 use crate::editor::{CurvatureDisplay, Layer, Layers};
 use crate::io::ExportChoice;
 
@@ -35,6 +36,8 @@ pub struct Shell {
     pub(super) curvature: String,
     /// What documents exported last, by their paths, the last one first.
     pub(super) exports: Vec<(PathBuf, BTreeMap<String, String>)>,
+    /// How documents are judged, by their paths, the last one first.
+    pub(super) judgings: Vec<(PathBuf, Judging)>,
     /// Whether a card offers the tour of the paper: from the first start until it is answered.
     pub(super) offers_tour: bool,
 }
@@ -54,6 +57,7 @@ impl Default for Shell {
             tool_names: false,
             curvature: CurvatureDisplay::default().name().to_owned(),
             exports: Vec::new(),
+            judgings: Vec::new(),
             offers_tour: false,
         }
     }
@@ -72,8 +76,8 @@ const OLD_PLACES: [Layer; 9] = [
     Layer::SafeRegion,
 ];
 
-/// The most documents whose last export is kept.
-const MOST_EXPORTS: usize = 50;
+/// The most documents whose last export and judging are kept.
+const MOST_KEPT: usize = 50;
 
 impl Shell {
     /// The choice of the last export of a document, by its path.
@@ -84,9 +88,18 @@ impl Shell {
 
     /// Keep the choice of the last export of a document.
     pub fn keep_export(&mut self, path: &Path, choice: &ExportChoice) {
-        self.exports.retain(|(known, _)| known != path);
-        self.exports.insert(0, (path.to_owned(), choice.settings()));
-        self.exports.truncate(MOST_EXPORTS);
+        keep(&mut self.exports, path, choice.settings());
+    }
+
+    /// How a document is judged, by its path.
+    pub fn judging_of(&self, path: &Path) -> Option<&Judging> {
+        let (_, judging) = self.judgings.iter().find(|(known, _)| known == path)?;
+        Some(judging)
+    }
+
+    /// Keep how a document is judged.
+    pub fn keep_judging(&mut self, path: &Path, judging: Judging) {
+        keep(&mut self.judgings, path, judging);
     }
 
     /// Remember which layers are shown.
@@ -104,6 +117,13 @@ impl Shell {
         };
         self.layers.get(layer.row().name).copied().or_else(old)
     }
+}
+
+/// Keep something of a document in front of the others.
+fn keep<T>(all: &mut Vec<(PathBuf, T)>, path: &Path, kept: T) {
+    all.retain(|(known, _)| known != path);
+    all.insert(0, (path.to_owned(), kept));
+    all.truncate(MOST_KEPT);
 }
 
 #[cfg(test)]

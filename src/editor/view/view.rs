@@ -156,8 +156,13 @@ impl View {
             .map(String::as_str)
     }
 
+    /// Each curve or reference that is compared with another one, and that one.
+    pub fn comparisons(&self) -> impl Iterator<Item = [CurveId; 2]> {
+        self.comparisons.iter().map(|(one, other)| [*one, *other])
+    }
+
     /// Compare a curve or a reference with another one, or with nothing.
-    pub(in crate::editor) fn compare(&mut self, id: CurveId, other: Option<CurveId>) {
+    pub fn compare(&mut self, id: CurveId, other: Option<CurveId>) {
         match other {
             Some(other) => self.comparisons.insert(id, other),
             None => self.comparisons.remove(&id),
