@@ -142,10 +142,15 @@ impl ImportPanel {
     fn sum_ui(&mut self, ui: &mut Ui, files: &[FoundFile]) {
         let (mut curves, mut references) = (0, 0);
         for (file, choice) in files.iter().zip(&self.choices) {
+            let mut points = 0;
             for row in file.found.taken(choice) {
-                curves += row.curves;
-                references += row.count.saturating_sub(row.curves);
+                let floats = if choice.to_float { row.smooth } else { 0 };
+                curves += row.curves + floats;
+                references += row.references - floats;
+                points += row.points;
             }
+            // All points make one reference.
+            references += usize::from(points > 1);
         }
         let counted = counted_items(curves, references);
         let size = match files {
@@ -222,7 +227,7 @@ impl ImportPanel {
         let pairs = || files.iter().zip(&self.choices);
         let smooth: usize = pairs()
             .flat_map(|(file, choice)| file.found.taken(choice))
-            .map(|row| row.references)
+            .map(|row| row.smooth)
             .sum();
         let Some(first) = self.choices.first() else {
             return;

@@ -44,8 +44,12 @@ pub struct FoundRow {
     pub periodic: usize,
     /// How many of their pieces are curves: a float polygon holds them.
     pub curves: usize,
-    /// How many of their pieces are smooth references, of which float polygons can be made.
+    /// How many of their pieces are references.
     pub references: usize,
+    /// How many of these are smooth: float polygons can be made of them.
+    pub smooth: usize,
+    /// How many are single points, which make one reference in all.
+    pub points: usize,
     /// The corners of the box around them, in the unit of the file.
     pub bounds: Option<[DVec3; 2]>,
 }
@@ -109,6 +113,8 @@ impl FoundRow {
             periodic: 0,
             curves: 0,
             references: 0,
+            smooth: 0,
+            points: 0,
             bounds: None,
         }
     }
@@ -134,11 +140,13 @@ impl FoundRow {
             }
             match Made::of(shape.clone()) {
                 Ok(Made::Reference(curve)) => {
-                    self.references += usize::from(curve.form().is_smooth());
+                    self.references += 1;
+                    self.smooth += usize::from(curve.form().is_smooth());
                     self.reach(&curve);
                 }
                 Ok(Made::Curve(_)) | Err(_) => {
                     if let Shape::Point(point) = shape {
+                        self.points += 1;
                         self.include(*point);
                     }
                 }
@@ -455,7 +463,8 @@ mod tests {
             expected.map(|(layer, kind, count)| (layer.to_owned(), kind, count))
         );
         let spline = &found.rows[1];
-        assert_eq!((&spline.degrees[..], spline.references), (&[3][..], 1));
+        assert_eq!((&spline.degrees[..], spline.smooth), (&[3][..], 1));
+        assert_eq!((found.rows[0].references, found.rows[0].smooth), (2, 0));
         let expected = [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(3.0, 4.0, 0.0)];
         assert_eq!(found.rows[0].bounds, Some(expected));
         let [low, high] = found.rows[2].bounds.expect("a box");

@@ -152,13 +152,21 @@ impl Taken {
     fn take(&mut self, place: usize, item: &Item) {
         let shapes = item.shapes.len();
         let (own, layers) = self.placed(item);
-        let group = self.group(item, own, layers);
+        let chain = (shapes > 1).then(|| match own {
+            Some(name) => self.chains.free(name),
+            None => {
+                let name = self.names.of_kind(item.kind);
+                self.chains.free(&name)
+            }
+        });
+        // The item's path, its block, and the item itself if it has several pieces.
+        let group = Group::new(layers.iter().chain(&item.block).chain(&chain));
         for (index, shape) in item.shapes.iter().enumerate() {
             if let Shape::Point(point) = shape {
                 self.points.push((self.factor * *point, group.clone()));
                 continue;
             }
-            let name = match own {
+            let name = match own.or(chain.as_ref()) {
                 Some(name) if shapes > 1 => self.names.free(&format!("{name} {}", index + 1)),
                 Some(name) => self.names.free(name),
                 None => self.names.of_kind(item.kind),
@@ -188,15 +196,6 @@ impl Taken {
             (None, [outer @ .., layer]) if is_alone => (Some(layer), outer),
             (name, layers) => (name.as_ref(), layers),
         }
-    }
-
-    /// The group of what an item becomes: its path, its block, and the item itself if it has several pieces.
-    fn group(&mut self, item: &Item, name: Option<&String>, layers: &[String]) -> Group {
-        let chain = (item.shapes.len() > 1).then(|| match name {
-            Some(name) => self.chains.free(name),
-            None => self.chains.of_kind(item.kind),
-        });
-        Group::new(layers.iter().chain(&item.block).chain(&chain))
     }
 
     fn add_curve(

@@ -99,7 +99,7 @@ impl MoveDrag {
             way: context.viewport.flatten(to - from),
             by: to - from,
             to,
-            in_space,
+            in_space: in_space || from.z != 0.0 || to.z != 0.0,
             remarks: name.into_iter().chain(remark).chain(added).collect(),
         }
     }
