@@ -75,6 +75,8 @@ pub enum Loss {
     },
     /// The curve's own colour.
     Colour,
+    /// The curve's own colour, in whose place one is written that the format has.
+    NearestColour,
     /// That the curve is hidden.
     Hidden,
     /// That the curve is locked.
@@ -294,6 +296,11 @@ impl LossReport {
     /// Add what every format but Batten's own loses of a curve.
     pub fn add_attributes(&mut self, curve: &Curve) {
         self.add_if(curve.colour.is_some(), curve, Loss::Colour);
+        self.add_own_attributes(curve);
+    }
+
+    /// Add what every format but Batten's own loses of a curve, the colour apart.
+    pub fn add_own_attributes(&mut self, curve: &Curve) {
         let has_locks = !curve.locked_vertices.is_empty();
         self.add_if(has_locks, curve, Loss::LockedVertices);
         let has_targets = !curve.targets.list().is_empty();
@@ -484,6 +491,9 @@ impl Loss {
             Self::AsPath { element } => format!("the {element} becomes a path"),
             Self::PointAttributes => "names and smoothness of its points are lost".to_owned(),
             Self::Colour => lost("the colour isn't"),
+            Self::NearestColour => {
+                format!("the colour is written as the nearest that {format} has")
+            }
             Self::Hidden => lost("visibility isn't"),
             Self::Locked => lost("the lock isn't"),
             Self::LockedVertices => lost("vertex locks aren't"),
@@ -601,7 +611,7 @@ mod tests {
             ("glif", false, false),
             ("obj", true, false),
             ("json", true, false),
-            ("dxf", true, false),
+            ("dxf", true, true),
             ("step", true, true),
             ("igs", true, true),
             ("3dm", true, true),

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use eframe::egui::{
-    Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Shadow,
-    Stroke, Style, TextStyle, Theme, Ui, Vec2, Visuals, style::ScrollStyle, style::Selection,
-    style::TextCursorStyle, style::WidgetVisuals, style::Widgets,
+    Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Rgba,
+    Shadow, Stroke, Style, TextStyle, Theme, Ui, Vec2, Visuals, style::ScrollStyle,
+    style::Selection, style::TextCursorStyle, style::WidgetVisuals, style::Widgets,
 };
 
 use crate::document::{Colour, CurveId};
@@ -24,6 +24,9 @@ pub const ICON: f32 = 16.0;
 
 /// The name of the icons' font family.
 const ICON_FAMILY: &str = "icons";
+
+/// The least contrast of a curve with the canvas.
+const LEAST_CONTRAST: f32 = 2.0;
 
 /// The colours of one theme, by purpose.
 #[derive(Clone, Debug, PartialEq)]
@@ -207,10 +210,17 @@ impl Tokens {
     pub fn of_item(&self, id: Option<CurveId>, own: Option<Colour>, is_reference: bool) -> Color32 {
         let place = id.map_or(0, |id| id.number() % self.items.len() as u64);
         match own {
-            Some(own) => of_document(own),
+            Some(own) => self.on_canvas(of_document(own)),
             None if is_reference && place == 0 => self.reference,
             None => self.items[place as usize],
         }
+    }
+
+    /// A colour of the document as it is drawn: one that is hardly seen on the canvas comes nearer to that of text.
+    fn on_canvas(&self, colour: Color32) -> Color32 {
+        let steps = (0..=10_u8).map(|step| colour.lerp_to_gamma(self.text, f32::from(step) / 10.0));
+        let mut seen = steps.filter(|it| contrast(*it, self.background) >= LEAST_CONTRAST);
+        seen.next().unwrap_or(self.text)
     }
 
     fn visuals(&self, dark: bool) -> Visuals {
@@ -291,6 +301,16 @@ pub fn install(context: &Context) {
 /// Choose the dark or the light theme.
 pub fn choose(context: &Context, dark: bool) {
     context.set_theme(if dark { Theme::Dark } else { Theme::Light });
+}
+
+/// The contrast of two colours, from 1 to 21: the ratio of their luminances, each with the light of a room (WCAG 2).
+fn contrast(a: Color32, b: Color32) -> f32 {
+    let luminance = |colour: Color32| {
+        let [red, green, blue, _] = Rgba::from(colour).to_array();
+        0.2126 * red + 0.7152 * green + 0.0722 * blue
+    };
+    let [a, b] = [a, b].map(|colour| luminance(colour) + 0.05);
+    a.max(b) / a.min(b)
 }
 
 /// A colour that the user gave to a curve.
@@ -392,6 +412,10 @@ mod tests {
         ],
     ];
 
+    fn luminance([red, green, blue]: Light) -> f64 {
+        0.2126 * red + 0.7152 * green + 0.0722 * blue
+    }
+
     fn light(colour: Color32) -> Light {
         [colour.r(), colour.g(), colour.b()].map(|channel| {
             let share = f64::from(channel) / 255.0;
@@ -400,15 +424,6 @@ mod tests {
                 false => ((share + 0.055) / 1.055).powf(2.4),
             }
         })
-    }
-
-    fn luminance([red, green, blue]: Light) -> f64 {
-        0.2126 * red + 0.7152 * green + 0.0722 * blue
-    }
-
-    fn contrast(a: Color32, b: Color32) -> f64 {
-        let [a, b] = [a, b].map(|colour| luminance(light(colour)) + 0.05);
-        a.max(b) / a.min(b)
     }
 
     fn seen(by: &[Light; 3], colour: Color32) -> Light {
@@ -440,6 +455,21 @@ mod tests {
             .zip(lab(b))
             .map(|(a, b)| (a - b) * (a - b));
         squares.sum::<f64>().sqrt()
+    }
+
+    #[test]
+    fn colours_of_documents_are_seen_on_both_canvases() {
+        for tokens in [true, false].map(Tokens::of_theme) {
+            for own in [[0; 3], [255; 3], [0, 0, 255], [255, 255, 0], [128, 0, 0]] {
+                let drawn = tokens.of_item(None, Some(Colour(own)), false);
+                assert!(
+                    contrast(drawn, tokens.background) >= LEAST_CONTRAST,
+                    "{own:?}"
+                );
+            }
+            let clear = Colour([255, 0, 0]);
+            assert_eq!(tokens.of_item(None, Some(clear), false), of_document(clear));
+        }
     }
 
     #[test]

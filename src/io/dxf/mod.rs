@@ -10,11 +10,12 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
 
-use crate::document::{Curve, Document, Group, Reference};
+use crate::document::{Colour, Curve, Document, Group, Reference};
 use crate::geometry::{ClampedPolygon, PolygonKind};
 use crate::io::error::WriteError;
 use crate::io::exchange;
 use crate::io::exchange::drawing::{Conic, Nurbs, Shape};
+use crate::io::exchange::dxf::colours::index_of;
 use crate::io::format::{ExportRow, FileUnit, Format, Writing};
 use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
@@ -106,7 +107,9 @@ fn drawing(
         }
         let base = layers.take(curve);
         report(curve, &base, kinds, losses);
+        entities.set_colour(curve.colour);
         spline(&mut entities, &clamped(curve), &base, &mut reach);
+        entities.set_colour(None);
         for &kind in kinds {
             let layer = format!("{base}{}", layers::suffix(kind));
             let FilePolygon {
@@ -122,6 +125,7 @@ fn drawing(
         };
         let layer = layers.take_reference(reference);
         report_reference(reference, &layer, losses);
+        entities.set_colour(reference.colour);
         for shape in shapes {
             match shape {
                 Shape::Polyline { points, closed } => {
@@ -170,7 +174,8 @@ fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossRe
     } else if layer != curve.name {
         losses.add(curve, Loss::Name { written });
     }
-    losses.add_attributes(curve);
+    losses.add_own_attributes(curve);
+    report_colour(&curve.name, curve.colour, losses);
     losses.add_if(curve.polygon.is_periodic(), curve, Loss::Periodic);
     for &kind in kinds {
         let is_rational = curve.polygon.is_rational();
@@ -187,10 +192,14 @@ fn report_reference(reference: &Reference, layer: &str, losses: &mut LossReport)
         let written = layer.to_owned();
         losses.losses.push((name.clone(), Loss::Name { written }));
     }
-    if reference.colour.is_some() {
-        losses.losses.push((name.clone(), Loss::Colour));
-    }
+    report_colour(name, reference.colour, losses);
     losses.add_point_weights(reference);
+}
+
+fn report_colour(name: &str, colour: Option<Colour>, losses: &mut LossReport) {
+    if colour.is_some_and(|it| index_of(it.0).is_none()) {
+        losses.losses.push((name.to_owned(), Loss::NearestColour));
+    }
 }
 
 /// The spline of a curve, on clamped knots.

@@ -240,8 +240,33 @@ fn losses_are_reported() {
     let written = "a_b".to_owned();
     check(
         &curve,
-        &[Loss::Name { written }, Loss::Colour, Loss::Targets],
+        &[Loss::Name { written }, Loss::Targets, Loss::NearestColour],
     );
+}
+
+#[test]
+fn colours_come_back() {
+    let colours = [
+        [255, 0, 0],
+        [255, 255, 0],
+        [0, 0, 255],
+        [255, 255, 255],
+        [51, 51, 51],
+    ];
+    let curves = colours.iter().zip(["a", "b", "c", "d", "e"]);
+    let curves = curves.map(|(colour, name)| Curve {
+        colour: Some(Colour(*colour)),
+        ..planar(name)
+    });
+    let curves: Vec<Curve> = curves.collect();
+    let curves: Vec<&Curve> = curves.iter().collect();
+    let export = written(&curves, Some(PolygonKind::Float)).expect("written");
+    assert!(export.losses.is_empty(), "{}", export.losses);
+    let read = crate::io::formats::find("dxf");
+    let read = read.expect("DXF").read(&export.bytes);
+    let read = read.expect("it can be read").curves;
+    let found: Vec<_> = read.iter().map(|curve| curve.colour).collect();
+    assert_eq!(found, colours.map(|colour| Some(Colour(colour))));
 }
 
 /// The layers of a drawing with their colours and whether they are locked, and those of its splines.

@@ -4,6 +4,9 @@ use std::fmt::{Display, Write};
 
 use glam::DVec3;
 
+use crate::document::Colour;
+use crate::io::exchange::dxf::colours::nearest_index;
+
 /// The handle of the block that everything drawn belongs to.
 pub(super) const MODEL_SPACE: u64 = 0x10;
 
@@ -14,6 +17,8 @@ const FIRST_ENTITY: u64 = 0x100;
 pub(super) struct Writer {
     text: String,
     next_handle: u64,
+    /// The index of the colour of the entities to come; `None` for that of their layer.
+    colour: Option<i64>,
 }
 
 impl Writer {
@@ -22,6 +27,7 @@ impl Writer {
         Self {
             text: String::new(),
             next_handle: FIRST_ENTITY,
+            colour: None,
         }
     }
 
@@ -30,7 +36,13 @@ impl Writer {
         Self {
             text: String::new(),
             next_handle: other.next_handle,
+            colour: None,
         }
+    }
+
+    /// Give the entities to come the nearest colour of those that the format has.
+    pub(super) fn set_colour(&mut self, colour: Option<Colour>) {
+        self.colour = colour.map(|it| nearest_index(it.0));
     }
 
     /// The handle that `take_handle` returns next.
@@ -67,6 +79,9 @@ impl Writer {
         self.handle(330, owner);
         self.text(100, "AcDbEntity");
         self.text(8, layer);
+        if let Some(index) = self.colour {
+            self.integer(62, index);
+        }
         handle
     }
 

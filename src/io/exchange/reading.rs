@@ -18,9 +18,6 @@ use crate::io::reading::{Reading, Remark};
 /// Axes whose angle or length differs by less than this share are perpendicular, or of one length.
 const SAME: f64 = 1e-12;
 
-/// The brightness of colours that are kept, of 255.
-const SEEN: std::ops::RangeInclusive<f64> = 40.0..=225.0;
-
 /// What a shape becomes.
 pub(super) enum Made {
     Curve(NearestFloat),
@@ -123,11 +120,9 @@ fn unit_of(millimetres: Option<f64>) -> (Option<LengthUnit>, f64) {
     }
 }
 
-/// A colour that is seen on a dark and on a light canvas; black, white and what is near them gives way to the theme's.
-fn seen(colour: [u8; 3]) -> Option<Colour> {
-    let [red, green, blue] = colour.map(f64::from);
-    let brightness = 0.3 * red + 0.6 * green + 0.1 * blue;
-    SEEN.contains(&brightness).then_some(Colour(colour))
+/// A colour of its own: black is what lines have without one.
+fn own_colour(colour: [u8; 3]) -> Option<Colour> {
+    (colour != [0; 3]).then_some(Colour(colour))
 }
 
 /// What was taken so far.
@@ -179,7 +174,7 @@ impl Taken {
                 Ok(Made::Reference(curve)) => {
                     self.sources[1].push(Some([place, index]));
                     let mut reference = Reference::new(name, curve).in_group(group.clone());
-                    reference.colour = item.colour.and_then(seen);
+                    reference.colour = item.colour.and_then(own_colour);
                     self.reading.references.push(reference);
                 }
                 Err(error) => self.tell(format!("{name} (at {}) is left out: {error}", item.at)),
@@ -214,7 +209,7 @@ impl Taken {
             });
         }
         let mut curve = Curve::new(name, near.polygon).in_group(group);
-        curve.colour = colour.and_then(seen);
+        curve.colour = colour.and_then(own_colour);
         self.reading.curves.push(curve);
     }
 

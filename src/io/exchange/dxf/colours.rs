@@ -36,6 +36,23 @@ pub fn paint(record: &Record<'_>) -> Result<Paint, Trouble> {
     })
 }
 
+/// The index of a colour that has one.
+pub(in crate::io) fn index_of(colour: [u8; 3]) -> Option<i64> {
+    (1..=255).find(|index| of_index(*index) == Some(colour))
+}
+
+/// The index of the colour that is nearest to one.
+pub(in crate::io) fn nearest_index(colour: [u8; 3]) -> i64 {
+    let apart = |index: &i64| {
+        let found = of_index(*index)?;
+        let squares = found.iter().zip(colour);
+        let squares = squares.map(|(a, b)| i64::from(a.abs_diff(b)).pow(2));
+        Some(squares.sum::<i64>())
+    };
+    let known = (1..=255).filter(|index| *index != CONTRAST);
+    known.min_by_key(apart).unwrap_or(CONTRAST)
+}
+
 /// The colour of an index from 1 to 255.
 fn of_index(index: i64) -> Option<[u8; 3]> {
     Some(match index {

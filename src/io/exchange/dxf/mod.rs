@@ -7,7 +7,7 @@ use crate::io::exchange::drawing::{Drawing, Unreadable};
 
 mod axes;
 mod code_pages;
-mod colours;
+pub(in crate::io) mod colours;
 mod entities;
 mod fit;
 mod groups;

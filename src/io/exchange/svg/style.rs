@@ -6,6 +6,9 @@ use std::str::FromStr;
 
 use roxmltree::Node;
 
+/// The properties that count.
+const PROPERTIES: [&str; 5] = ["stroke", "fill", "color", "display", "visibility"];
+
 /// What an element inherits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Style {
@@ -48,7 +51,7 @@ impl Style {
     /// Make the style of an element within one of this style.
     pub(super) fn of(mut self, node: Node, sheet: &Sheet) -> Self {
         self.hidden = false;
-        for name in ["stroke", "fill", "color", "display", "visibility"] {
+        for name in PROPERTIES {
             if let Some(value) = node.attribute(name) {
                 self.set(name, value);
             }
@@ -102,24 +105,29 @@ impl Sheet {
             let Some((selectors, body)) = rule.split_once('{') else {
                 continue;
             };
+            let mut known = Vec::new();
+            for (name, value) in declarations(body).filter(|it| PROPERTIES.contains(&it.0)) {
+                declare(&mut known, name, value);
+            }
             for selector in selectors.split(',').map(str::trim) {
                 if selector.contains(|it: char| it.is_whitespace() || "@:[>+~*".contains(it)) {
                     continue;
                 }
-                let known = declarations(body)
-                    .filter(|(name, _)| {
-                        matches!(
-                            *name,
-                            "stroke" | "fill" | "color" | "display" | "visibility"
-                        )
-                    })
-                    .map(|(name, value)| (name.to_owned(), value.to_owned()));
-                self.rules
-                    .entry(selector.to_owned())
-                    .or_default()
-                    .extend(known);
+                let rules = self.rules.entry(selector.to_owned()).or_default();
+                for (name, value) in &known {
+                    declare(rules, name, value);
+                }
             }
         }
+    }
+}
+
+/// Add a declaration in the place of an earlier one of its name, so that no selector has more than a few.
+fn declare(rules: &mut Vec<(String, String)>, name: &str, value: &str) {
+    let changes_nothing = value == "inherit" || (name == "color" && rgb(value).is_none());
+    if !changes_nothing {
+        rules.retain(|(known, _)| known != name);
+        rules.push((name.to_owned(), value.to_owned()));
     }
 }
 
