@@ -58,7 +58,8 @@ impl ReportView {
         in_progress: &OperationInProgress,
         report: &Report,
     ) -> Option<Values> {
-        for warning in &report.warnings {
+        // The first one stands below the report.
+        for warning in report.warnings.iter().skip(1) {
             widgets::warning(ui, warning);
         }
         let clicked = self.trade_off_ui(ui, in_progress, report);
