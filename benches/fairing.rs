@@ -69,6 +69,7 @@ fn harmonising(criterion: &mut Criterion) {
             inflections: Some(0),
             torsion_extrema: None,
             largest_deviation: None,
+            symmetry: None,
         };
         group.bench_function(BenchmarkId::from_parameter(count), |bencher| {
             bencher.iter(|| harmonise(black_box(&polygon), &harmony, &Progress::default()));

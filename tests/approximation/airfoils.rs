@@ -404,6 +404,7 @@ fn polygons_of_sections_are_harmonised_with_their_ends() {
                 inflections: None,
                 torsion_extrema: None,
                 largest_deviation: Some(0.05 * polygon.size()),
+                symmetry: None,
             };
             let found = harmonise(&polygon, &harmony, &Progress::default()).expect("a result");
             assert!(found.reached, "{name}: {extrema}");

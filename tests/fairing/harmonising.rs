@@ -19,6 +19,7 @@ fn wish(held: Held) -> Harmony<'static> {
         inflections: None,
         torsion_extrema: None,
         largest_deviation: None,
+        symmetry: None,
     }
 }
 
@@ -111,6 +112,7 @@ fn asked(extrema: usize, inflections: usize) -> Harmony<'static> {
         inflections: Some(inflections),
         torsion_extrema: None,
         largest_deviation: None,
+        symmetry: None,
     }
 }
 
