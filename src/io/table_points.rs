@@ -22,6 +22,9 @@ const COUNTERS: [&str; 10] = [
     "nr", "no", "n", "#", "id", "i", "index", "num", "number", "point",
 ];
 
+/// No section of an airfoil has more points. To look for one takes memory.
+const MOST_OF_AIRFOIL: usize = 100_000;
+
 /// Lines of a table that hold points: those below one line with column names, if there is one.
 #[derive(Debug, Default)]
 pub(super) struct PointSection<'a> {
@@ -178,12 +181,12 @@ impl<'a> PointReader<'a> {
                 1 => title.clone(),
                 _ => format!("{title}, block {number}"),
             });
-            let points: Vec<DVec3> = block.rows.iter().map(|row| row.point).collect();
-            let order = match told {
-                Some(order) => Some(order),
-                None if is_on_earth => None,
-                None => is_selig(&points).then_some(AirfoilOrder::Selig),
-            };
+            let may_be_airfoil = !is_on_earth && block.rows.len() <= MOST_OF_AIRFOIL;
+            let order = told.or_else(|| {
+                let rows = may_be_airfoil.then_some(&block.rows)?;
+                let points: Vec<DVec3> = rows.iter().map(|row| row.point).collect();
+                is_selig(&points).then_some(AirfoilOrder::Selig)
+            });
             self.add(section.line, own.or(numbered), block.rows, is_on_earth)?;
             if let (Some(order), Some(added)) = (order, self.lists.last()) {
                 let name = added.name.clone();
@@ -250,17 +253,13 @@ impl<'a> PointReader<'a> {
 
     /// Find out which columns hold the coordinates; `None` if no line can be a row.
     fn layout(&mut self, section: &PointSection) -> Result<Option<Layout>, ReadError> {
-        let rows: Vec<(usize, &Fields)> = section
-            .fields()
-            .filter(|(_, fields)| fields.numbers() >= 2)
-            .collect();
+        let rows = section.fields();
+        let mut rows: Vec<(usize, &Fields)> =
+            rows.filter(|(_, fields)| fields.numbers() >= 2).collect();
         let Some(count) = most_frequent(rows.iter().map(|(_, fields)| fields.values.len())) else {
             return Ok(None);
         };
-        let rows: Vec<_> = rows
-            .into_iter()
-            .filter(|it| it.1.values.len() == count)
-            .collect();
+        rows.retain(|(_, fields)| fields.values.len() == count);
         let first = rows.first().map_or(section.line, |(line, _)| *line);
         let names = self.names(section, first, count);
         let place = Place::line(names.as_ref().map_or(first, |(line, _)| *line));
@@ -439,6 +438,7 @@ impl<'a> PointReader<'a> {
                 if !block.rows.is_empty() {
                     lists += usize::from(block.rows.len() > 1);
                     self.check_count(lists, line.number)?;
+                    block.rows.shrink_to_fit();
                     blocks.push(std::mem::take(&mut block));
                 }
                 continue;
@@ -469,6 +469,9 @@ impl<'a> PointReader<'a> {
 
     /// Bring an airfoil in Lednicer order into that around the section.
     fn in_order(&mut self, blocks: Vec<Block>) -> (Vec<Block>, Option<AirfoilOrder>) {
+        if blocks.iter().map(|block| block.rows.len()).sum::<usize>() > MOST_OF_AIRFOIL {
+            return (blocks, None);
+        }
         let rows: Vec<Row> = blocks
             .iter()
             .flat_map(|it| it.rows.iter().copied())

@@ -249,8 +249,12 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         format!("Vertex {vertex} moves by {distance}, farther than the polygon is large: ask for more features")
     });
     let torn = torn(&curve.polygon, &found.polygon);
-    let folds = folds(&curve.polygon, &found.polygon);
-    let is_wrong = turned.is_some() || flung.is_some() || torn.is_some() || folds;
+    let folded = folds(&curve.polygon, &found.polygon).then(|| {
+        "The polygon turns back where it did not: ask for other numbers, or refine first".to_owned()
+    });
+    let is_wrong = [&turned, &flung, &torn, &folded]
+        .iter()
+        .any(|it| it.is_some());
     let failed = is_wrong.then_some(Requirement::Failed { left: None });
     let requirements = found.requirements.iter().cloned().chain(failed);
     outcome.requirements = vec![(id, requirements.collect())];
@@ -265,6 +269,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         .into_iter()
         .chain(flung.or_else(|| tail(&curve.polygon, &found.polygon)))
         .chain(torn)
+        .chain(folded)
         .collect();
     let raised = required.into_iter().filter_map(|(_, remark)| remark);
     outcome.remarks.extend(raised);

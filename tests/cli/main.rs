@@ -172,7 +172,7 @@ fn convert_lists_what_is_lost() {
     );
     check(
         &["b.dxf", "--polygon", "float"],
-        "batten: “a/b”: the name is written as “a_b”, which DXF allows\nbatten: “a/b”: the colour isn't stored in the DXF\nbatten: “a/b”: written as an open curve that ends where it begins\n",
+        "batten: “a/b”: the name is written as “a_b”, which DXF allows\nbatten: “a/b”: the colour is written as the nearest that DXF has\nbatten: “a/b”: written as an open curve that ends where it begins\n",
     );
     check(
         &["c.batten", "--polygon", "bezier"],
