@@ -177,10 +177,11 @@ impl Editor {
     fn overlay(&self) -> Overlay {
         let (context, tool) = (self.context(), self.hand.tool());
         let mut marks = self.hand.tools.used().marks(&context);
-        // In the way of other tools, such as one that traces what was measured.
-        let shows_measurement = matches!(self.hand.tool(), ToolKind::Select | ToolKind::Measure);
+        // That of a picture is in the way of tools that trace it.
+        let traces = !matches!(self.hand.tool(), ToolKind::Select | ToolKind::Measure);
         let measurement = self.hand.settings.measurement.as_ref();
-        if let Some(measurement) = measurement.filter(|_| shows_measurement) {
+        let measurement = measurement.filter(|it| !traces || it.picture().is_none());
+        if let Some(measurement) = measurement {
             marks.extend(measurement.marks(context.hits));
         }
         let (active, operation) = (self.active(), self.operation());

@@ -155,7 +155,8 @@ impl OperationInProgress {
     }
 
     /// Whether the run has warnings that nobody could see yet, beside some that were seen, or has not reached what was asked
-    /// for. Searches show the best that they have found, and single steps of the end fit are no result.
+    /// for without being stopped. Searches show the best that they have found, and single steps of the end fit are no
+    /// result.
     pub(super) fn is_unseen(&self, seen: &[String]) -> bool {
         let is_new = |run: &Run| seen.is_empty() || run.warnings().any(|it| !seen.contains(it));
         let warns = |run: &Run| !self.operation.can_be_stopped() && run.warns() && is_new(run);
@@ -163,7 +164,7 @@ impl OperationInProgress {
             && self.end_fit.is_none_or(EndFitStep::is_joint)
             && self
                 .finished()
-                .is_some_and(|run| run.falls_short() || warns(run))
+                .is_some_and(|run| (!self.stops && run.falls_short()) || warns(run))
     }
 
     /// Whether the run can be stopped with the best found so far.
