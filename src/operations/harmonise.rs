@@ -252,9 +252,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
     let folded = folds(&curve.polygon, &found.polygon).then(|| {
         "The polygon turns back where it did not: ask for other numbers, or refine first".to_owned()
     });
-    let is_wrong = [&turned, &flung, &torn, &folded]
-        .iter()
-        .any(|it| it.is_some());
+    let is_wrong = turned.is_some() || flung.is_some() || torn.is_some();
     let failed = is_wrong.then_some(Requirement::Failed { left: None });
     let requirements = found.requirements.iter().cloned().chain(failed);
     outcome.requirements = vec![(id, requirements.collect())];
