@@ -19,7 +19,7 @@ use super::values::Values;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::fairing::harmonising::{
-    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, folds, follows, harmonise,
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows, harmonise,
 };
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
@@ -249,9 +249,6 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         format!("Vertex {vertex} moves by {distance}, farther than the polygon is large: ask for more features")
     });
     let torn = torn(&curve.polygon, &found.polygon);
-    let folded = folds(&curve.polygon, &found.polygon).then(|| {
-        "The polygon turns back where it did not: ask for other numbers, or refine first".to_owned()
-    });
     let is_wrong = turned.is_some() || flung.is_some() || torn.is_some();
     let failed = is_wrong.then_some(Requirement::Failed { left: None });
     let requirements = found.requirements.iter().cloned().chain(failed);
@@ -267,7 +264,6 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         .into_iter()
         .chain(flung.or_else(|| tail(&curve.polygon, &found.polygon)))
         .chain(torn)
-        .chain(folded)
         .collect();
     let raised = required.into_iter().filter_map(|(_, remark)| remark);
     outcome.remarks.extend(raised);

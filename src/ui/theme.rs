@@ -26,7 +26,7 @@ pub const ICON: f32 = 16.0;
 const ICON_FAMILY: &str = "icons";
 
 /// The least contrast of a curve with the canvas.
-const LEAST_CONTRAST: f32 = 2.0;
+const LEAST_CONTRAST: f64 = 2.0;
 
 /// The colours of one theme, by purpose.
 #[derive(Clone, Debug, PartialEq)]
@@ -304,13 +304,19 @@ pub fn choose(context: &Context, dark: bool) {
 }
 
 /// The contrast of two colours, from 1 to 21: the ratio of their luminances, each with the light of a room (WCAG 2).
-fn contrast(a: Color32, b: Color32) -> f32 {
-    let luminance = |colour: Color32| {
-        let [red, green, blue, _] = Rgba::from(colour).to_array();
-        0.2126 * red + 0.7152 * green + 0.0722 * blue
-    };
-    let [a, b] = [a, b].map(|colour| luminance(colour) + 0.05);
+fn contrast(a: Color32, b: Color32) -> f64 {
+    let [a, b] = [a, b].map(|colour| luminance(light(colour)) + 0.05);
     a.max(b) / a.min(b)
+}
+
+/// How much red, green and blue light a colour is.
+fn light(colour: Color32) -> [f64; 3] {
+    let [red, green, blue, _] = Rgba::from(colour).to_array();
+    [red, green, blue].map(f64::from)
+}
+
+fn luminance([red, green, blue]: [f64; 3]) -> f64 {
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
 }
 
 /// A colour that the user gave to a curve.
@@ -411,20 +417,6 @@ mod tests {
             [0.004733, 0.691367, 0.303900],
         ],
     ];
-
-    fn luminance([red, green, blue]: Light) -> f64 {
-        0.2126 * red + 0.7152 * green + 0.0722 * blue
-    }
-
-    fn light(colour: Color32) -> Light {
-        [colour.r(), colour.g(), colour.b()].map(|channel| {
-            let share = f64::from(channel) / 255.0;
-            match share <= 0.04045 {
-                true => share / 12.92,
-                false => ((share + 0.055) / 1.055).powf(2.4),
-            }
-        })
-    }
 
     fn seen(by: &[Light; 3], colour: Color32) -> Light {
         let light = light(colour);

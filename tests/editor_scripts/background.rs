@@ -165,8 +165,31 @@ fn apply_during_a_run_waits_and_says_so_and_can_be_cancelled() {
     assert_eq!(script.polygon().degree(), 6);
 }
 
-#[test]
-fn a_result_that_warns_is_shown_before_it_is_applied() {
+/// Wait for the run of the operation that is previewed.
+fn finish(script: &mut Script, woken: &Receiver<()>) {
+    let is_pending = |editor: &Editor| {
+        let operation = editor.operation();
+        operation.is_some_and(OperationInProgress::is_pending)
+    };
+    while is_pending(&script.editor) {
+        woken.recv_timeout(LONG).expect("the frame is woken");
+        script.editor.begin_frame();
+    }
+}
+
+#[track_caller]
+fn check_held_back(script: &Script) {
+    assert_eq!(script.steps(), 0);
+    assert!(script.editor.previewed_operation().is_some());
+    let message = script.editor.message().expect("a message");
+    assert!(
+        message.warns && message.text.starts_with("Not applied yet"),
+        "{message:?}"
+    );
+}
+
+/// A preview of a chain that moves the second curve by more than its length, in the background.
+fn far_chain() -> (Script, Receiver<()>) {
     let line = |name: &str, from: (f64, f64), to: (f64, f64)| {
         let at = |step: u8| {
             let share = f64::from(step) / 7.0;
@@ -187,26 +210,36 @@ fn a_result_that_warns_is_shown_before_it_is_applied() {
     };
     let woken = prove_in_background(&mut script, Duration::ZERO);
     script.try_out("join").expect("an operation");
-    // The chain moves the second curve by more than its length.
     script.set("method", Value::Choice(3)).expect("a method");
+    (script, woken)
+}
+
+#[test]
+fn a_result_that_warns_is_shown_before_it_is_applied() {
+    let (mut script, woken) = far_chain();
     let operating = &mut script.editor.operating();
     operating.apply().expect("nothing is refused");
-    let is_pending = |editor: &Editor| {
-        let operation = editor.operation();
-        operation.is_some_and(OperationInProgress::is_pending)
-    };
-    while is_pending(&script.editor) {
-        woken.recv_timeout(LONG).expect("the frame is woken");
-        script.editor.begin_frame();
-    }
-    assert_eq!(script.steps(), 0);
-    assert!(script.editor.previewed_operation().is_some());
-    let message = script.editor.message().expect("a message");
-    assert!(
-        message.warns && message.text.starts_with("Not applied yet"),
-        "{message:?}"
-    );
+    finish(&mut script, &woken);
+    check_held_back(&script);
     script.editor.operating().apply().expect("it is seen now");
+    assert_eq!(script.steps(), 1);
+}
+
+#[test]
+fn a_warning_that_was_seen_holds_nothing_back() {
+    let (mut script, woken) = far_chain();
+    finish(&mut script, &woken);
+    let report = script
+        .editor
+        .operation()
+        .and_then(OperationInProgress::report);
+    assert!(report.is_some_and(|report| report.warnings.len() == 1));
+    // Nothing is matched: the result stays the same.
+    let drop = ("drop-match", Value::Switch(true));
+    script.set(drop.0, drop.1).expect("a value");
+    let operating = &mut script.editor.operating();
+    operating.apply().expect("nothing is refused");
+    finish(&mut script, &woken);
     assert_eq!(script.steps(), 1);
 }
 
@@ -234,20 +267,8 @@ fn the_best_found_is_shown_before_it_is_applied() {
         .operating()
         .apply()
         .expect("nothing is refused");
-    while script
-        .editor
-        .operation()
-        .is_some_and(OperationInProgress::is_pending)
-    {
-        woken.recv_timeout(LONG).expect("the frame is woken");
-        script.editor.begin_frame();
-    }
-    assert_eq!(script.steps(), 0);
-    let message = script.editor.message().expect("a message");
-    assert!(
-        message.warns && message.text.starts_with("Not applied yet"),
-        "{message:?}"
-    );
+    finish(&mut script, &woken);
+    check_held_back(&script);
     script.key(Key::Escape);
     let message = script.editor.message().expect("a message");
     assert_eq!(message.text, "Harmonise: cancelled");

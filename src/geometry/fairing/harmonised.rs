@@ -204,7 +204,7 @@ pub fn flung(before: &FloatPolygon, after: &FloatPolygon) -> Option<(usize, f64)
 }
 
 /// Whether a polygon turns back at a vertex where it did not before: nobody takes that for harmonious.
-pub fn folds(before: &FloatPolygon, after: &FloatPolygon) -> bool {
+pub(super) fn folds(before: &FloatPolygon, after: &FloatPolygon) -> bool {
     let mut pairs = turning_angles(before).zip(turning_angles(after));
     pairs.any(|((_, before), (_, after))| before <= FOLD && after > FOLD)
 }

@@ -15,7 +15,7 @@ use crate::geometry::harmony::unevenness;
 use crate::geometry::progress::Progress;
 
 pub use super::harmonised::{
-    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, folds, follows,
+    Harmonised, Harmony, HarmonyError, Held, farthest_move, flung, follows,
 };
 
 /// The weight ε at which the search begins.

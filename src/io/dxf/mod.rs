@@ -15,7 +15,7 @@ use crate::geometry::{ClampedPolygon, PolygonKind};
 use crate::io::error::WriteError;
 use crate::io::exchange;
 use crate::io::exchange::drawing::{Conic, Nurbs, Shape};
-use crate::io::exchange::dxf::colours::index_of;
+use crate::io::exchange::dxf::colours::nearest_index;
 use crate::io::format::{ExportRow, FileUnit, Format, Writing};
 use crate::io::loss::{Loss, LossReport};
 use crate::io::polygon::FilePolygon;
@@ -197,7 +197,7 @@ fn report_reference(reference: &Reference, layer: &str, losses: &mut LossReport)
 }
 
 fn report_colour(name: &str, colour: Option<Colour>, losses: &mut LossReport) {
-    if colour.is_some_and(|it| index_of(it.0).is_none()) {
+    if colour.is_some_and(|it| !nearest_index(it.0).1) {
         losses.losses.push((name.to_owned(), Loss::NearestColour));
     }
 }

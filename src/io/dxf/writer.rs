@@ -42,7 +42,7 @@ impl Writer {
 
     /// Give the entities to come the nearest colour of those that the format has.
     pub(super) fn set_colour(&mut self, colour: Option<Colour>) {
-        self.colour = colour.map(|it| nearest_index(it.0));
+        self.colour = colour.map(|it| nearest_index(it.0).0);
     }
 
     /// The handle that `take_handle` returns next.

@@ -777,3 +777,18 @@ fn units_behind_numbers_are_read_where_all_agree() {
         "{error}"
     );
 }
+
+#[test]
+fn tables_without_bounds_are_refused_with_their_line() {
+    let told = |text: &str| read(text.as_bytes()).expect_err("too much").to_string();
+    let wide = "1,".repeat(20_000);
+    assert!(
+        told(&format!("x,y\n1,2\n{wide}\n")).starts_with("line 3: the line has more than 16384")
+    );
+    // As many columns as are known are only too many to guess from.
+    let known = "1,".repeat(16_000) + "1";
+    let told_of_known = told(&format!("{known}\n{known}\n"));
+    assert!(told_of_known.ends_with("30 and 15971 more: name them x and y, or choose them"));
+    let many = "0 0\n1 1\n\n".repeat(150_001);
+    assert!(told(&many).starts_with("line 450003: the file has more than 150000 lists of points"));
+}

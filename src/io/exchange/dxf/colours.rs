@@ -36,21 +36,15 @@ pub fn paint(record: &Record<'_>) -> Result<Paint, Trouble> {
     })
 }
 
-/// The index of a colour that has one.
-pub(in crate::io) fn index_of(colour: [u8; 3]) -> Option<i64> {
-    (1..=255).find(|index| of_index(*index) == Some(colour))
-}
-
-/// The index of the colour that is nearest to one.
-pub(in crate::io) fn nearest_index(colour: [u8; 3]) -> i64 {
-    let apart = |index: &i64| {
-        let found = of_index(*index)?;
-        let squares = found.iter().zip(colour);
+/// The index of the colour that is nearest to one, and whether it is the same.
+pub(in crate::io) fn nearest_index(colour: [u8; 3]) -> (i64, bool) {
+    let apart = |index: i64| {
+        let squares = of_index(index)?.into_iter().zip(colour);
         let squares = squares.map(|(a, b)| i64::from(a.abs_diff(b)).pow(2));
-        Some(squares.sum::<i64>())
+        Some((squares.sum::<i64>(), index))
     };
-    let known = (1..=255).filter(|index| *index != CONTRAST);
-    known.min_by_key(apart).unwrap_or(CONTRAST)
+    let nearest = (1..=255).filter_map(apart).min();
+    nearest.map_or((CONTRAST, false), |(apart, index)| (index, apart == 0))
 }
 
 /// The colour of an index from 1 to 255.

@@ -72,6 +72,16 @@ fn style_sheets_of_classes() {
 }
 
 #[test]
+fn the_last_rule_of_a_selector_counts() {
+    let found = page(
+        "<style>.a,.b{stroke:red;stroke:#123456}.a{stroke:inherit}.b{stroke:blue}.b{fill:red}</style>\
+         <path class='a' d='M0 0h1'/><path class='b' d='M0 0h1'/>",
+    );
+    let colours: Vec<_> = found.items.iter().map(|it| it.colour).collect();
+    assert_eq!(colours, [Some([0x12, 0x34, 0x56]), Some([0, 0, 255])]);
+}
+
+#[test]
 fn hidden_elements_are_skipped_with_one_remark() {
     let found = page(
         "<g style='display:none'><path d='M0 0h1'/></g>\n<path visibility='hidden' d='M0 0h1'/>\
