@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use batten::document::Document;
+use batten::document::{Curve, Document};
 use batten::editor::{Editor, ToolKind};
+use batten::geometry::FloatPolygon;
 use batten::geometry::expressions::LengthUnit;
-use batten::io::disk;
+use batten::io::{PROJECT, disk};
 use eframe::egui::{DroppedFile, Event, Key, Modifiers, Pos2, Vec2};
 use egui_kittest::kittest::Queryable;
 
@@ -370,4 +371,30 @@ fn keys_of_commands_do_nothing_in_a_drag() {
     assert_eq!(editor.document().curves().count(), 1);
     assert_eq!(editor.hand().tool(), ToolKind::Select);
     assert_eq!(curve(&window).polygon, before.polygon);
+}
+
+#[test]
+fn a_document_that_is_opened_again_is_judged_as_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let curve = |name: &str, height: f64| {
+        let points = [(0.0, 0.0), (10.0, height), (20.0, height), (30.0, 0.0)];
+        Curve::new(name, FloatPolygon::planar(3, &points).expect("a polygon"))
+    };
+    for name in ["one.batten", "other.batten"] {
+        let document = Document::from_curves([curve("a", 5.0), curve("b", 6.0)]);
+        let written = PROJECT.write(&document, None).expect("a project");
+        std::fs::write(path(name), written.bytes).expect("the file");
+    }
+    let mut window = open_window();
+    drop_file(&mut window, &path("one.batten"));
+    let compared = |window: &Window| window.state().editor().sight().compared();
+    click(&mut window, "Plot menu");
+    pick(&mut window, "Compare with");
+    pick(&mut window, "b");
+    let other = compared(&window).expect("a curve to compare with");
+    drop_file(&mut window, &path("other.batten"));
+    assert_eq!(compared(&window), None);
+    drop_file(&mut window, &path("one.batten"));
+    assert_eq!(compared(&window), Some(other));
 }

@@ -147,3 +147,13 @@ pub fn right_click(window: &mut Window, at: Pos2) {
     }
     window.run();
 }
+
+/// Choose an entry of the menu: it is shown above everything else of that name.
+pub fn pick(window: &mut Window, label: &str) {
+    let entries: Vec<Pos2> = window
+        .query_all_by_label(label)
+        .map(|entry| entry.rect().center())
+        .collect();
+    let at = *entries.last().expect("an entry");
+    drag(window, at, at);
+}

@@ -83,3 +83,23 @@ fn a_plain_drawing_says_what_came_and_leads_to_the_panel() {
     click(&mut window, "Cancel");
     assert_eq!(references(&window), 2);
 }
+
+#[test]
+fn the_sum_counts_what_comes_in() {
+    let mut window = open_window_of(1000.0, 700.0);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("shapes.svg");
+    let shapes = "<path d='M10 10C20 0 30 0 40 10'/><circle cx='50' cy='50' r='10'/>\
+                  <rect x='60' y='60' width='20' height='10' rx='2'/>";
+    let text = format!("<svg xmlns='http://www.w3.org/2000/svg'>{shapes}</svg>");
+    std::fs::write(&path, text).expect("the file");
+    drop_file(&mut window, &path);
+    // The rounded rectangle is four lines and four arcs.
+    window.get_by_label_contains("Taken: 1 curve and 9 references");
+    window.get_by_label_contains("Make float polygons of 5 smooth references");
+    let curves = |window: &Window| window.state().editor().document().curves().count();
+    let before = [curves(&window), references(&window)];
+    click(&mut window, "Add");
+    assert_eq!(curves(&window) - before[0], 1);
+    assert_eq!(references(&window) - before[1], 9);
+}

@@ -3,7 +3,7 @@
 use batten::editor::{Editor, PlotKind, told};
 use batten::geometry::rounded_up;
 use batten::io::examples::EXAMPLES;
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
 use crate::hand::*;
@@ -37,16 +37,6 @@ fn open_curve_menu(window: &mut Window) {
 fn open_degree_menu(window: &mut Window) {
     open_curve_menu(window);
     click(window, "Vertices and degree");
-}
-
-/// Choose an entry of the menu: it is shown above everything else of that name.
-fn pick(window: &mut Window, label: &str) {
-    let entries: Vec<Pos2> = window
-        .query_all_by_label(label)
-        .map(|entry| entry.rect().center())
-        .collect();
-    let at = *entries.last().expect("an entry");
-    drag(window, at, at);
 }
 
 #[test]
