@@ -293,12 +293,12 @@ impl Editor {
     /// [`Refusal`] if they cannot be made, or move vertices so that a feature is added while features are
     /// kept; nothing is changed then.
     pub fn apply(&mut self, label: &str, edits: Vec<Edit>) -> Reply {
-        self.interrupt();
+        let lost = self.interrupt_waiting();
         let kept = self
             .hand
             .check_kept(&edits, &self.workspace, &self.view.analyses);
         let reply = kept.and_then(|()| self.make(label, edits, false));
-        self.tell(reply)
+        self.tell(lost.before(reply))
     }
 
     /// Make edits as one step, or as a part of the last one where a key `repeats`; tells which
@@ -411,6 +411,16 @@ impl Editor {
         let ended = self.workspace.interrupt();
         self.document_changed();
         drags || ended == Some(Interruption::Aborts)
+    }
+
+    /// End the preview as [`Self::interrupt`] does. Returns what is told of an operation that waited to be applied.
+    fn interrupt_waiting(&mut self) -> Note {
+        let waiting = self.previewed_operation();
+        let lost = waiting
+            .filter(|it| it.is_waiting_to_apply())
+            .map(OperationInProgress::ended);
+        self.interrupt();
+        lost.unwrap_or_else(Note::silent)
     }
 
     /// Put right what depends on the document after it has changed. What is selected is selected of

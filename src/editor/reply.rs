@@ -57,6 +57,21 @@ impl Note {
         }
     }
 
+    /// Tell this note before a later reply.
+    pub(in crate::editor) fn before(self, reply: Reply) -> Reply {
+        if self.text.is_empty() {
+            return reply;
+        }
+        match reply {
+            Ok(note) => Ok(Self {
+                text: with_lines(self.text, &note.text),
+                warns: self.warns || note.warns,
+                ..note
+            }),
+            Err(Refusal(reason)) => Err(Refusal(with_lines(self.text, &reason))),
+        }
+    }
+
     /// The same note, with the offer to choose anew what came in, if there is something to choose from.
     pub(in crate::editor) fn offering_choice(self, offers_choice: bool) -> Self {
         Self {

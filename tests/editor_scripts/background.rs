@@ -4,8 +4,9 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 use batten::document::{Curve, Document, Edit};
-use batten::editor::{Command, Editor, FeatureKind, Key, Look, OperationInProgress};
+use batten::editor::{Command, Editor, FeatureKind, Key, Look, OperationInProgress, ToolKind};
 use batten::geometry::FloatPolygon;
+use batten::geometry::expressions::LengthUnit;
 use batten::geometry::features::Features;
 use batten::operations::Value;
 use glam::{DVec2, DVec3};
@@ -145,6 +146,25 @@ fn apply_during_a_run_waits_and_says_so_and_can_be_cancelled() {
     script.command(Command::Undo);
     assert_eq!(script.message(), dropped);
     assert_eq!(script.steps(), 0);
+
+    // So does a command: one that shows a panel, one that says something itself, and one that is refused.
+    for command in [
+        Command::Operation(operation("trim")),
+        Command::Tool(ToolKind::Draw),
+        Command::SetUnit(Some(LengthUnit::Inch)),
+        Command::AddFormula,
+    ] {
+        let held = script.editor.document().clone();
+        begin(&mut script.editor);
+        script.command(command);
+        let message = script.message();
+        assert!(message.starts_with(&dropped), "{command:?}: {message}");
+        script.key(Key::Escape);
+        if !script.editor.document().is_same(&held) {
+            script.command(Command::Undo);
+        }
+        script.command(Command::Tool(ToolKind::Select));
+    }
 
     begin(&mut script.editor);
     // The result of other values is to be seen first.

@@ -77,7 +77,7 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if they cannot be removed; nothing is changed then.
     pub fn cut(&mut self) -> Result<String, Refusal> {
-        self.interrupt();
+        let lost = self.interrupt_waiting();
         let copied = text_of(&self.hand.selection, self.document());
         let (selection, document) = (&self.hand.selection, self.document());
         let mut items = selection.items().into_iter();
@@ -87,7 +87,7 @@ impl Editor {
             true => self.execute_on_items(Command::DeleteCurve),
             false => self.delete("Cut", "cut", true),
         });
-        self.tell(reply)?;
+        self.tell(lost.before(reply))?;
         copied
     }
 

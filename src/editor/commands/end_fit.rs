@@ -24,8 +24,8 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if it cannot be done; nothing is changed then.
     pub fn end_fit_action(&mut self, action: EndFitAction) -> Reply {
-        self.interrupt();
-        self.message = None;
+        let lost = self.interrupt_waiting();
+        self.message = Message::of(&Ok(lost));
         let (id, curve) = self.active_curve().ok_or("There is no curve")?;
         if curve.polygon.is_periodic() {
             return self.tell(Err(Refusal(format!(

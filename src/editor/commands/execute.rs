@@ -46,17 +46,18 @@ impl Editor {
                 return Ok(Note::silent());
             }
             Command::Redo => {
-                self.interrupt();
+                let lost = self.interrupt_waiting();
                 let redone = self.step(Workspace::redo);
-                Ok(redone.map_or_else(Note::silent, |it| Note::told(format!("Redone: {it}"))))
+                let told = |it| Note::told(format!("Redone: {it}"));
+                lost.before(Ok(redone.map_or_else(Note::silent, told)))
             }
             _ if command.only_shows() => {
                 self.show(command);
                 return Ok(Note::silent());
             }
             _ => {
-                self.interrupt();
-                self.execute_idle(command, shown)
+                let lost = self.interrupt_waiting();
+                lost.before(self.execute_idle(command, shown))
             }
         };
         self.tell(reply)

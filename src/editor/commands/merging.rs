@@ -68,7 +68,12 @@ impl Editor {
         incoming: Incoming,
         assumed: Option<LengthUnit>,
     ) -> Reply {
-        self.interrupt();
+        let lost = self.interrupt_waiting();
+        lost.before(self.merge_idle(incoming, assumed))
+    }
+
+    /// Merge documents once nothing is previewed.
+    fn merge_idle(&mut self, incoming: Incoming, assumed: Option<LengthUnit>) -> Reply {
         let retakes = incoming.files.as_ref().and_then(|files| files.retakes);
         let has_retaken =
             retakes == Some(self.workspace.revision()) && incoming.purpose == Purpose::Import;

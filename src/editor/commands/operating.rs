@@ -45,14 +45,10 @@ impl Editor {
             return self.apply_operation(operation, &[]);
         }
         self.message = None;
-        let ended = self.previewed_operation();
-        let dropped = ended
-            .filter(|it| it.is_waiting_to_apply())
-            .map(OperationInProgress::ended);
-        self.interrupt();
+        let lost = self.interrupt_waiting();
         let input = self.input_of(operation);
         let begun = self.operating().preview(operation, input, &[], None);
-        self.tell(begun.map(|()| dropped.unwrap_or_else(Note::silent)))
+        self.tell(lost.before(begun.map(|()| Note::silent())))
     }
 
     /// Apply an operation with some values; the others have their defaults. The message shows the reply.
@@ -65,12 +61,12 @@ impl Editor {
         operation: &'static Operation,
         given: &[(&str, Value)],
     ) -> Reply {
-        self.interrupt();
+        let lost = self.interrupt_waiting();
         let input = self.input_of(operation);
         let reply = self
             .operating()
             .apply_at_once(operation, input, given, None);
-        self.tell(reply)
+        self.tell(lost.before(reply))
     }
 
     /// The input of an operation: the active curve or reference, and the selected curves; where a second one is
