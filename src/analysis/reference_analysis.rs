@@ -238,10 +238,10 @@ mod tests {
         for degree in [3, 5] {
             let counts: Vec<usize> = (0..count)
                 .map(|seam| {
-                    let points = (0..count + degree)
+                    let points: Vec<DVec3> = (0..count + degree)
                         .map(|index| corner(seam + index))
                         .collect();
-                    let knots = (0..count + 2 * degree + 1)
+                    let knots: Vec<f64> = (0..count + 2 * degree + 1)
                         .map(|knot| knot as f64)
                         .collect();
                     let nurbs = Nurbs::new(degree, knots, points, None, true).expect("a spline");

@@ -57,7 +57,7 @@ pub(super) fn run(source: &Source, at: &[f64]) -> anyhow::Result<()> {
     let unit = unit.map(LengthUnit::symbol);
     let curves = curves.iter().zip(&features);
     let curves = OneByOne::new(curves.map(|(curve, features)| inspected(curve, at, features)));
-    let references = OneByOne::new(references.iter().map(InspectedReference::of));
+    let references = OneByOne::new(references.iter().map(|it| InspectedReference::of(it)));
     output::print_json(&Report {
         unit,
         curves,

@@ -31,7 +31,7 @@ pub struct Document {
 
 impl Document {
     /// Make a document of some curves.
-    pub fn from_curves(curves: impl IntoIterator<Item = Curve>) -> Self {
+    pub fn from_curves(curves: impl IntoIterator<Item: Into<Arc<Curve>>>) -> Self {
         let mut document = Self::default();
         for curve in curves {
             document.push(curve);
@@ -40,7 +40,10 @@ impl Document {
     }
 
     /// Add references behind those that there are.
-    pub fn with_references(mut self, references: impl IntoIterator<Item = Reference>) -> Self {
+    pub fn with_references(
+        mut self,
+        references: impl IntoIterator<Item: Into<Arc<Reference>>>,
+    ) -> Self {
         for reference in references {
             self.push_reference(reference);
         }
@@ -253,17 +256,17 @@ impl Document {
         (self.next..).map(CurveId)
     }
 
-    pub(super) fn push(&mut self, curve: Curve) -> CurveId {
+    pub(super) fn push(&mut self, curve: impl Into<Arc<Curve>>) -> CurveId {
         let id = self.next_id();
         self.next += 1;
-        self.curves.push((id, Arc::new(curve)));
+        self.curves.push((id, curve.into()));
         id
     }
 
-    pub(super) fn push_reference(&mut self, reference: Reference) -> CurveId {
+    pub(super) fn push_reference(&mut self, reference: impl Into<Arc<Reference>>) -> CurveId {
         let id = self.next_id();
         self.next += 1;
-        self.references.push((id, Arc::new(reference)));
+        self.references.push((id, reference.into()));
         id
     }
 

@@ -7,6 +7,7 @@ use std::fmt;
 use std::fs::{self, File, Metadata, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 use tempfile::NamedTempFile;
 
@@ -192,6 +193,10 @@ pub fn beside_pictures(document: Document, path: &Path) -> Document {
 fn place_pictures(reading: &mut Reading, path: &Path, format: &Format) {
     let folder = home_of(path);
     for reference in &mut reading.references {
+        if reference.picture.is_none() {
+            continue;
+        }
+        let reference = Arc::make_mut(reference);
         let Some(picture) = &mut reference.picture else {
             continue;
         };

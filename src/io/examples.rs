@@ -96,7 +96,7 @@ mod tests {
         let mut curves = Example::find(name).unwrap().read().unwrap().curves;
         assert_eq!(curves.len(), 1, "{name}");
         assert_eq!(curves[0].name, name);
-        curves.remove(0).polygon
+        curves.remove(0).polygon.clone()
     }
 
     /// Count the sign changes of the signed curvature and of its derivative by u, sampled 400

@@ -1,6 +1,7 @@
 //! Pictures to trace: PNG, JPEG, WebP and TIFF.
 
 use std::io::Cursor;
+use std::sync::Arc;
 
 use exif::{In, Tag, Value};
 use glam::DVec2;
@@ -109,7 +110,9 @@ fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     let curve = ReferenceCurve::of(form).map_err(Problem::from)?;
     let picture = Picture::new(PictureSource::Embedded(bytes.into()), pixels);
     let mut reading = Reading {
-        references: vec![Reference::new("picture", curve).with_picture(picture)],
+        references: vec![Arc::new(
+            Reference::new("picture", curve).with_picture(picture),
+        )],
         unit: Some(LengthUnit::Millimetre),
         ..Reading::default()
     };

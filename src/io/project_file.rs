@@ -3,6 +3,8 @@
 //! One set of types reads and writes every version: in an older version the keys that came later are
 //! unknown ones.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 
@@ -208,7 +210,7 @@ impl<V: Version> ProjectFile<V> {
             for (key, _) in curve.extras.iter() {
                 keys.add(key, number, &curve.name);
             }
-            curves.push(curve);
+            curves.push(Arc::new(curve));
         }
         keys.remark(&mut remarks);
         let mut references = Vec::new();
@@ -220,10 +222,10 @@ impl<V: Version> ProjectFile<V> {
                 let reference = (number, reference.name.clone());
                 remarks.add(Remark::unknown_key(key, Owner::Reference { reference }));
             }
-            references.push(Reference {
+            references.push(Arc::new(Reference {
                 extras,
                 ..reference
-            });
+            }));
         }
         let mut unknown = UnknownKeys::default();
         let matches = project.matches.into_iter();

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 use std::fmt;
+use std::sync::Arc;
 
 use super::airfoil_order::AirfoilOrder;
 use super::file_match::FileMatch;
@@ -18,10 +19,10 @@ const MOST_NAMED: usize = 8;
 /// The content of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// The curves.
-    pub curves: Vec<Curve>,
-    /// The references.
-    pub references: Vec<Reference>,
+    /// The curves, as a document holds them: of hundreds of thousands none is moved.
+    pub curves: Vec<Arc<Curve>>,
+    /// The references, likewise.
+    pub references: Vec<Arc<Reference>>,
     /// The matches between them. They name only curves and references of this reading.
     pub matches: Vec<FileMatch>,
     /// The unit of length, if the file says one.
@@ -189,7 +190,7 @@ impl Reading {
         let is_alone = self.references.len() == 1;
         for (number, reference) in (1..).zip(&mut self.references) {
             if reference.points().is_some() && reference.name == nameless(number) {
-                reference.name = match is_alone {
+                Arc::make_mut(reference).name = match is_alone {
                     true => file.to_owned(),
                     false => format!("{file} {number}"),
                 };

@@ -23,6 +23,7 @@
 //! ([`table_points`](super::table_points)).
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use csv::WriterBuilder;
 use glam::DVec3;
@@ -123,7 +124,7 @@ fn read_columns(bytes: &[u8], choice: Option<&ColumnChoice>) -> Result<Reading, 
             Section::Curve(block) => {
                 let number = reading.curves.len() + 1;
                 let curve = block.into_curve(number, &mut decimals, &mut remarks)?;
-                reading.curves.push(curve);
+                reading.curves.push(Arc::new(curve));
             }
             Section::Points(section) => points.read(&section, &mut decimals)?,
         }

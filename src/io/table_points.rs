@@ -2,6 +2,7 @@
 //! rows, and airfoils in either order.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -213,7 +214,7 @@ impl<'a> PointReader<'a> {
                 continue;
             }
             let reference = self.reference(number, list)?;
-            reading.references.push(reference);
+            reading.references.push(Arc::new(reference));
         }
         for (lines, remark) in [
             (self.skipped, Remark::Skipped as fn(Vec<usize>) -> Remark),

@@ -337,7 +337,7 @@ fn followed(before: &Nurbs, after: &Nurbs, [from, to]: [f64; 2]) -> Option<Nurbs
             Some(own.iter().copied().chain(others).collect())
         }
     };
-    let knots = knots.chain(shifted).collect();
+    let knots: Vec<f64> = knots.chain(shifted).collect();
     Nurbs::new(degree, knots, points, weights, false).ok()
 }
 

@@ -230,7 +230,7 @@ mod tests {
             DVec3::new(t, (0.9 * t).sin(), 0.0)
         });
         let knots = [vec![0.0; 6], vec![1.0, 2.5, 3.0], vec![4.0; 6]].concat();
-        let nurbs = Nurbs::new(5, knots, points.collect(), None, false);
+        let nurbs = Nurbs::new(5, knots, points.collect::<Vec<_>>(), None, false);
         let nurbs = ReferenceForm::Nurbs(nurbs.expect("a spline"));
         let own = ReferenceCurve::of(nurbs).expect("a reference");
         let document = Document::default().with_references([Reference::new("hull", own.clone())]);

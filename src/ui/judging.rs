@@ -87,7 +87,7 @@ mod tests {
         read.restore(&mut after);
         assert_eq!(Judging::of(&after), judging);
         assert_eq!(after.view().compared(ids[0]), Some(ids[1]));
-        let mut empty = Editor::with_document(Document::from_curves([]));
+        let mut empty = Editor::with_document(Document::default());
         read.restore(&mut empty);
         assert_eq!(empty.view().comparisons().count(), 0);
     }

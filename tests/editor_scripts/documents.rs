@@ -1,6 +1,7 @@
 //! Documents of every kind that commands and tools meet.
 
 use std::io::Cursor;
+use std::sync::Arc;
 
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace, Reference};
 use batten::geometry::end_correction::EndTarget;
@@ -230,7 +231,7 @@ pub fn picture() -> Reference {
         .expect("a picture");
     let reading = PICTURE.read(bytes.get_ref()).expect("a picture");
     let mut references = reading.references.into_iter();
-    references.next().expect("a frame")
+    Arc::unwrap_or_clone(references.next().expect("a frame"))
 }
 
 /// A document of another program: two curves, the first of which may follow the second.

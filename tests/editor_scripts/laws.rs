@@ -1,5 +1,7 @@
 //! What documents, selection and view are after anything that is done, and what protects curves.
 
+use std::sync::Arc;
+
 use batten::document::{Curve, Document, Reference};
 use batten::editor::Selection;
 use batten::geometry::{Continuity, End, FloatPolygon};
@@ -236,8 +238,8 @@ pub fn check_read<E: std::fmt::Display>(
     read: Result<Reading, E>,
 ) -> Result<(), String> {
     let read = read.map_err(|error| format!("cannot be read back: {error}"))?;
-    let held: Vec<&Reference> = document.references().map(|(_, it)| it.as_ref()).collect();
-    if read.references.iter().collect::<Vec<&Reference>>() != held {
+    let held: Vec<&Arc<Reference>> = document.references().map(|(_, it)| it).collect();
+    if read.references.iter().collect::<Vec<_>>() != held {
         return Err(format!("read back as {:?}, not {held:?}", read.references));
     }
     let (read, matches, extras) = (read.curves, read.matches, read.extras);
@@ -258,8 +260,8 @@ pub fn check_read<E: std::fmt::Display>(
     if extras != *document.extras() {
         return Err(format!("{extras:?} was read back"));
     }
-    let held: Vec<&Curve> = document.curves().map(|(_, curve)| curve.as_ref()).collect();
-    if read.iter().collect::<Vec<&Curve>>() != held {
+    let held: Vec<&Arc<Curve>> = document.curves().map(|(_, curve)| curve).collect();
+    if read.iter().collect::<Vec<_>>() != held {
         return Err(format!("read back as {read:?}, not {held:?}"));
     }
     Ok(())

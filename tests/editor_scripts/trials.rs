@@ -1,5 +1,6 @@
 //! Operations that are tried out, applied, changed afterwards and cancelled.
 
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
@@ -516,10 +517,7 @@ fn check_goes_on(script: &mut Script, name: &str) {
     goes_on(script, "saving");
     let read = disk::read_file(&path).expect("what was saved").curves;
     let settled = script.editor.workspace().settled();
-    let held: Vec<Curve> = settled
-        .curves()
-        .map(|(_, curve)| Curve::clone(curve))
-        .collect();
+    let held: Vec<Arc<Curve>> = settled.curves().map(|(_, curve)| curve.clone()).collect();
     assert_eq!(read, held, "without what is tried out");
 }
 

@@ -514,7 +514,13 @@ fn spline(middle: usize) -> ReferenceCurve {
     let knots = [vec![0.0; 4], inner, vec![5.0; 4]].concat();
     let count = knots.len() - 4;
     let corner = |index: usize| DVec3::new(10.0 * index as f64, 8.0 * (index % 2) as f64, 0.0);
-    let nurbs = Nurbs::new(3, knots, (0..count).map(corner).collect(), None, false);
+    let nurbs = Nurbs::new(
+        3,
+        knots,
+        (0..count).map(corner).collect::<Vec<_>>(),
+        None,
+        false,
+    );
     let form = ReferenceForm::Nurbs(nurbs.expect("a spline"));
     ReferenceCurve::of(form).expect("a reference")
 }
@@ -633,7 +639,7 @@ fn path(sharp: &[usize]) -> ReferenceCurve {
         let is_end = it == 0 || it == places.len();
         vec![it as f64; if is_end { 4 } else { 3 }]
     });
-    let nurbs = Nurbs::new(3, knots.collect(), points, None, false);
+    let nurbs = Nurbs::new(3, knots.collect::<Vec<_>>(), points, None, false);
     let form = ReferenceForm::Nurbs(nurbs.expect("a spline"));
     ReferenceCurve::of(form).expect("a reference")
 }

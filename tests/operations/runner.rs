@@ -1,5 +1,7 @@
 //! Running operations on the built-in examples.
 
+use std::sync::Arc;
+
 use batten::document::{Curve, CurveId, Document, Edit, LockedVertices, Reference};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::references::ReferenceCurve;
@@ -20,7 +22,8 @@ pub struct Runner {
 impl Runner {
     pub fn example(name: &str) -> Self {
         let example = Example::find(name).expect("an example");
-        Self::curves(example.read().expect("an example").curves)
+        let curves = example.read().expect("an example").curves;
+        Self::curves(curves.into_iter().map(Arc::unwrap_or_clone).collect())
     }
 
     pub fn of(polygon: FloatPolygon) -> Self {

@@ -129,7 +129,7 @@ fn clamped_bezier_and_periodic_curves_have_a_float_polygon_others_have_none() {
             .chain([bezier.segments() as f64]);
         let nurbs = Nurbs::new(
             degree,
-            ends.collect(),
+            ends.collect::<Vec<_>>(),
             bezier.vertices().to_vec(),
             None,
             false,
@@ -231,7 +231,7 @@ fn uneven(degree: usize) -> Nurbs {
         let t = index as f64;
         DVec3::new(t, (1.3 * t).sin(), 0.1 * t * t)
     });
-    let points = points.collect();
+    let points: Vec<DVec3> = points.collect();
     Nurbs::new(degree, knots, points, None, false).expect("a spline")
 }
 
@@ -274,7 +274,14 @@ fn a_glance_at_the_knots_tells_whether_there_is_a_float_polygon() {
     let far = smooth.each_ref().map(|nurbs| {
         let points = nurbs.points().iter().map(|it| *it + 1e6 * DVec3::X);
         let knots = nurbs.knots().to_vec();
-        Nurbs::new(nurbs.degree(), knots, points.collect(), None, false).expect("a spline")
+        Nurbs::new(
+            nurbs.degree(),
+            knots,
+            points.collect::<Vec<_>>(),
+            None,
+            false,
+        )
+        .expect("a spline")
     });
     let all = smooth.iter().chain(&chains).chain(&others).chain(&sharp);
     let all: Vec<&Nurbs> = all.chain(&far).collect();

@@ -85,17 +85,18 @@ impl Nurbs {
     /// [`NurbsError`].
     pub fn new(
         degree: usize,
-        knots: Vec<f64>,
-        points: Vec<DVec3>,
+        knots: impl Into<Arc<[f64]>>,
+        points: impl Into<Arc<[DVec3]>>,
         weights: Option<Vec<f64>>,
         periodic: bool,
     ) -> Result<Self, NurbsError> {
+        let (knots, points) = (knots.into(), points.into());
         check(degree, &knots, &points, weights.as_deref())?;
         let differ = |weights: &Vec<f64>| weights.iter().any(|it| Some(it) != weights.first());
         Ok(Self {
             degree,
-            knots: knots.into(),
-            points: points.into(),
+            knots,
+            points,
             weights: weights.filter(differ).map(Arc::from),
             periodic,
         })

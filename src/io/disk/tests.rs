@@ -30,7 +30,7 @@ fn a_file_is_written_whole_and_read_back() {
         let path = folder.path().join(name);
         let saved = write_document(&path, &document(), None).unwrap();
         assert_eq!(saved.to_string(), "");
-        assert_eq!(read_file(&path).unwrap().curves, [curve()]);
+        assert_eq!(read_file(&path).unwrap().curves, [curve().into()]);
     }
     assert_eq!(names(folder.path()), ["a.batten", "b.CSV"]);
 }

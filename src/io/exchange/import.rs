@@ -10,7 +10,7 @@ pub use super::choice::{ImportChoice, RowKey};
 use super::drawing::{Drawing, Item, Kind, Other, Shape, Space};
 use super::reading::Made;
 use crate::geometry::expressions::LengthUnit;
-use crate::geometry::references::ReferenceCurve;
+use crate::geometry::references::{Nurbs, ReferenceCurve};
 use crate::geometry::{ParametricCurve, significant};
 
 /// So many items come in unasked; more are worth a look before they fill the canvas.
@@ -19,6 +19,9 @@ const FEW: usize = 20;
 /// The steps across a piece of a curve at which its box is measured: it then misses less than a hundredth of the
 /// piece's height.
 const STEPS: usize = 16;
+
+/// About so many steps along a spline of many pieces, each of which is small beside the whole.
+const MOST_STEPS: usize = 1 << 16;
 
 /// The same of a reference, whose pieces turn little.
 const REFERENCE_STEPS: usize = 4;
@@ -130,15 +133,11 @@ impl FoundRow {
         self.rational += usize::from(splines().any(|nurbs| nurbs.weights.is_some()));
         self.periodic += usize::from(splines().any(|nurbs| nurbs.periodic));
         for shape in &item.shapes {
-            // To convert each curve only to count it would take long.
-            if let Some(nurbs) = shape.nurbs().and_then(|drawn| drawn.checked().ok())
-                && nurbs.has_float_polygon()
-            {
-                self.curves += 1;
-                nurbs.points_along(STEPS).for_each(|it| self.include(it));
+            if let Some(nurbs) = shape.nurbs().and_then(|drawn| drawn.checked().ok()) {
+                self.add_spline(&nurbs);
                 continue;
             }
-            match Made::of(shape.clone()) {
+            match Made::of(shape) {
                 Ok(Made::Reference(curve)) => {
                     self.references += 1;
                     self.smooth += usize::from(curve.form().is_smooth());
@@ -152,6 +151,18 @@ impl FoundRow {
                 }
             }
         }
+    }
+
+    /// Count a spline, without the conversion that would take long, and widen the box by it.
+    fn add_spline(&mut self, nurbs: &Nurbs) {
+        if nurbs.has_float_polygon() {
+            self.curves += 1;
+        } else {
+            self.references += 1;
+            self.smooth += 1;
+        }
+        let steps = (MOST_STEPS / nurbs.points().len()).clamp(1, STEPS);
+        nurbs.points_along(steps).for_each(|it| self.include(it));
     }
 
     /// Widen the box by a reference.

@@ -1,6 +1,8 @@
 //! What becomes of a drawing: curves where a float polygon is exact, references elsewhere.
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -94,15 +96,15 @@ impl DrawnNurbs {
     /// # Errors
     /// [`ReferenceError`] if they are no curve.
     pub fn checked(&self) -> Result<Nurbs, ReferenceError> {
-        let (knots, points) = (self.knots.clone(), self.points.clone());
-        let curve = Nurbs::new(
+        let (knots, points) = (&self.knots[..], &self.points[..]);
+        let weights = self.weights.clone();
+        Ok(Nurbs::new(
             self.degree,
             knots,
             points,
-            self.weights.clone(),
+            weights,
             self.periodic,
-        );
-        Ok(curve?)
+        )?)
     }
 }
 
@@ -166,7 +168,7 @@ impl Taken {
                 Some(name) => self.names.free(name),
                 None => self.names.of_kind(item.kind),
             };
-            match Made::of(scaled(shape, self.factor)) {
+            match Made::of(&scaled(shape, self.factor)) {
                 Ok(Made::Curve(near)) => {
                     self.sources[0].push(Some([place, index]));
                     self.add_curve(name, near, item.colour, group.clone());
@@ -175,7 +177,7 @@ impl Taken {
                     self.sources[1].push(Some([place, index]));
                     let mut reference = Reference::new(name, curve).in_group(group.clone());
                     reference.colour = item.colour.and_then(own_colour);
-                    self.reading.references.push(reference);
+                    self.reading.references.push(Arc::new(reference));
                 }
                 Err(error) => self.tell(format!("{name} (at {}) is left out: {error}", item.at)),
             }
@@ -210,7 +212,7 @@ impl Taken {
         }
         let mut curve = Curve::new(name, near.polygon).in_group(group);
         curve.colour = colour.and_then(own_colour);
-        self.reading.curves.push(curve);
+        self.reading.curves.push(Arc::new(curve));
     }
 
     fn tell(&mut self, text: String) {
@@ -290,7 +292,7 @@ impl Taken {
             Ok(curve) => {
                 let reference = Reference::new(name, curve).in_group(group);
                 self.sources[1].push(None);
-                self.reading.references.push(reference);
+                self.reading.references.push(Arc::new(reference));
             }
             Err(error) => self.tell(format!("the points are left out: {error}")),
         }
@@ -338,10 +340,10 @@ fn name_of_all<'d>(items: &[&'d Item]) -> Option<&'d str> {
     names.all(|name| name == Some(first)).then_some(first)
 }
 
-fn scaled(shape: &Shape, factor: f64) -> Shape {
+fn scaled(shape: &Shape, factor: f64) -> Cow<'_, Shape> {
     match factor == 1.0 {
-        true => shape.clone(),
-        false => shape.clone().placed(&Affine::scaling(factor)),
+        true => Cow::Borrowed(shape),
+        false => Cow::Owned(shape.clone().placed(&Affine::scaling(factor))),
     }
 }
 
@@ -359,7 +361,7 @@ impl Made {
     ///
     /// # Errors
     /// [`ReferenceError`] if the shape is no curve.
-    pub(super) fn of(shape: Shape) -> Result<Self, ReferenceError> {
+    pub(super) fn of(shape: &Shape) -> Result<Self, ReferenceError> {
         let reference = match shape {
             Shape::Nurbs(drawn) => {
                 let nurbs = drawn.checked()?;
@@ -368,14 +370,15 @@ impl Made {
                 }
                 ReferenceCurve::of(ReferenceForm::Nurbs(nurbs))?
             }
-            Shape::Conic(conic) => ellipse(&conic)?,
-            Shape::Polyline { mut points, closed } => {
-                let first = points.first().copied();
-                points.extend(first.filter(|first| closed && points.last() != Some(first)));
+            Shape::Conic(conic) => ellipse(conic)?,
+            Shape::Polyline { points, closed } => {
+                let first = points.first();
+                let again = first.filter(|first| *closed && points.last() != Some(first));
+                let points = points.iter().chain(again).copied().collect();
                 ReferenceCurve::of(ReferenceForm::Points(PointList::new(points)?))?
             }
             Shape::Point(point) => {
-                let list = PointList::new(vec![point])?;
+                let list = PointList::new(vec![*point])?;
                 ReferenceCurve::of(ReferenceForm::Points(list))?
             }
         };

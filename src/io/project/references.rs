@@ -84,7 +84,7 @@ fn what_is_left_out_has_its_default() {
     let expected = ReferenceCurve::from_text("circle").unwrap();
     assert_eq!(
         reading.references,
-        [Reference::new("reference 1", expected)]
+        [Reference::new("reference 1", expected).into()]
     );
 }
 

@@ -65,7 +65,7 @@ fn tables_come_back_exactly() {
     let curves = [planar(), spatial(), rational()];
     let export = written(&curves, PolygonKind::Float).unwrap();
     assert!(export.losses.is_empty(), "{}", export.losses);
-    assert_eq!(read(&export.bytes).unwrap().curves, curves);
+    assert_eq!(read(&export.bytes).unwrap().curves, curves.map(Arc::new));
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn tables_of_other_programs_are_read() {
         let curves = read(text.as_bytes()).unwrap().curves;
         assert_eq!(
             curves,
-            [curve("curve 1", expected, weights, false)],
+            [curve("curve 1", expected, weights, false).into()],
             "{text:?}"
         );
     };
@@ -221,7 +221,7 @@ fn text_that_is_not_utf8_is_refused_with_its_place() {
 /// Check the values of a table's only curve, and what is told of it.
 fn check_table(text: &str, expected: &[[f64; 3]], told: &str) {
     let reading = read(text.as_bytes()).unwrap();
-    let expected = [curve("curve 1", expected, None, false)];
+    let expected = [curve("curve 1", expected, None, false).into()];
     assert_eq!(reading.curves, expected, "{text:?}");
     assert_eq!(reading.remarks.to_string(), told, "{text:?}");
 }
@@ -268,7 +268,10 @@ fn every_name_survives_every_separator() {
     let (header, rows) = text.split_once('\n').unwrap();
     for separator in [",", ";", "\t"] {
         let text = format!("{header}\n{}", rows.replace(',', separator));
-        assert_eq!(read(text.as_bytes()).unwrap().curves[0], named);
+        assert_eq!(
+            read(text.as_bytes()).unwrap().curves[0],
+            named.clone().into()
+        );
     }
 }
 
@@ -333,7 +336,7 @@ fn check_points(text: &str, name: &str, expected: &[[f64; 3]]) {
     let points = expected.iter().copied().map(DVec3::from_array).collect();
     let list = ReferenceForm::Points(PointList::new(points).unwrap());
     let expected = Reference::new(name, ReferenceCurve::of(list).unwrap());
-    assert_eq!(reading.references, [expected], "{text:?}");
+    assert_eq!(reading.references, [expected.into()], "{text:?}");
 }
 
 #[test]
@@ -374,7 +377,7 @@ fn curves_and_points_stand_in_one_file() {
         "“round”: references aren't stored in the CSV table"
     );
     let reading = read(&export.bytes).unwrap();
-    assert_eq!(reading.curves, [planar()]);
+    assert_eq!(reading.curves, [planar().into()]);
     let [read] = &reading.references[..] else {
         panic!("{:?}", reading.references);
     };
@@ -606,7 +609,7 @@ fn a_point_table_keeps_titles_and_digits() {
     let text = String::from_utf8(export.bytes.clone()).unwrap();
     assert!(text.starts_with("# unit=in\nNACA 0012\n  0.0  "), "{text}");
     let reading = crate::io::POINT_TABLE.read(&export.bytes).unwrap();
-    assert_eq!(reading.references, references, "{text}");
+    assert_eq!(reading.references, references.map(Arc::new), "{text}");
     assert_eq!(reading.unit, Some(LengthUnit::Inch));
     let none = crate::io::POINT_TABLE.write(&Document::from_curves([planar()]), None);
     assert!(matches!(none, Err(WriteError::NoPoints { .. })));
@@ -692,7 +695,7 @@ fn latitude_and_longitude_are_read_as_those_of_a_track() {
     // Two lists of one file lie in one plane.
     let two = "lat,lon\n54,10\n54,10.01\n\n54.01,10\n54.01,10.01\n";
     let reading = TABLE.read(two.as_bytes()).unwrap();
-    let middle = reading.references.iter().filter_map(Reference::points);
+    let middle = reading.references.iter().filter_map(|it| it.points());
     let middle: DVec3 = middle.flatten().sum();
     assert!(middle.length() < 1.0, "{middle}");
     // Columns that are chosen are taken as they are.
