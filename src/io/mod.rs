@@ -26,6 +26,7 @@ mod loss;
 mod object;
 mod original;
 mod picture;
+mod point_section;
 mod point_table;
 mod polygon;
 mod project;

@@ -32,12 +32,13 @@ use super::decimals::Decimals;
 use super::error::{Place, Problem, ReadError, WriteError};
 use super::format::{ExportRow, FileUnit, Format, Writing};
 use super::loss::{Loss, LossReport};
+use super::point_section::{PointSection, commented_names};
 use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
 use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, WEIGHT, vertex_columns};
 use super::table_header::{CurveHeader, TableHeader, begins_table};
-use super::table_lines::{COMMENT_MARKS, Fields, LineContent, TableLine, lines, separator};
-use super::table_points::{PointReader, PointSection};
+use super::table_lines::{Fields, LineContent, Lines, TableLine, separator};
+use super::table_points::PointReader;
 use super::text::text;
 use crate::document::{Curve, Document, Group, Reference};
 use crate::geometry::expressions::LengthUnit;
@@ -111,7 +112,7 @@ fn read_columns(bytes: &[u8], choice: Option<&ColumnChoice>) -> Result<Reading, 
     let text = decoded(bytes, &mut remarks)?;
     let separator = separator(&text);
     let mut comments = Comments::default();
-    let sections = sections(&text, separator, &mut comments)?;
+    let sections = sections(Lines::all(&text, separator), &mut comments)?;
     let has_points = sections.iter().any(|it| matches!(it, Section::Points(_)));
     if choice.is_some() && !has_points {
         return Err(Problem::NoChoice.into());
@@ -197,96 +198,92 @@ enum Section<'a> {
 }
 
 /// Divide a file where a line with # announces a table, and where names of columns follow numbers.
-fn sections<'a>(
-    text: &'a str,
-    separator: char,
-    comments: &mut Comments,
-) -> Result<Vec<Section<'a>>, ReadError> {
+fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'a>>, ReadError> {
     let mut sections: Vec<Section> = Vec::new();
-    for mut line in lines(text, separator) {
+    for mut line in all.split() {
         if let LineContent::Header(header) = &line.content {
             let header = TableHeader::parse(header);
             let header = header.map_err(|problem| Place::line(line.number).problem(problem))?;
-            sections.push(Section::announced(line.number, header));
+            let section = Section::announced(line.number, header, all.after(&line));
+            begin(&mut sections, &line, section);
             continue;
         }
         if matches!(line.content, LineContent::Comment) {
-            match (commented_names(line.text, separator), sections.last()) {
-                (Some(names), None | Some(Section::Points(_))) => {
-                    line.content = LineContent::Fields(names);
-                }
-                _ => {
-                    comments.take(&line);
-                    continue;
-                }
-            }
+            let names = match sections.last() {
+                None | Some(Section::Points(_)) => commented_names(line.text, all.separator()),
+                Some(Section::Curve(_)) => None,
+            };
+            let Some(names) = names else {
+                comments.take(&line);
+                continue;
+            };
+            line.content = LineContent::Fields(names);
         }
-        if let LineContent::Fields(fields) = &line.content
-            && fields.are_too_many()
-        {
+        let LineContent::Fields(fields) = &line.content else {
+            continue;
+        };
+        if fields.are_too_many() {
             return Err(Place::line(line.number).problem(Problem::TooManyColumns));
         }
-        let is_blank = matches!(line.content, LineContent::Blank);
-        let begins = !is_blank && sections.last().is_none_or(|last| last.ends_before(&line));
-        if begins {
-            sections.push(Section::Points(PointSection {
+        if sections.last().is_none_or(|last| last.ends_before(fields)) {
+            let section = PointSection {
                 line: line.number,
+                lines: all.from(&line),
                 ..PointSection::default()
-            }));
+            };
+            begin(&mut sections, &line, Section::Points(section));
         }
-        if let Some(section) = sections.last_mut() {
-            section.lines().push(line);
+        match sections.last_mut() {
+            Some(Section::Curve(block)) => block.has_columns = true,
+            Some(Section::Points(section)) => section.note(fields),
+            None => {}
         }
     }
     Ok(sections)
 }
 
-/// Take a comment such as `# x y` for the names of columns.
-fn commented_names(line: &str, separator: char) -> Option<Fields<'_>> {
-    let is_mark = |it: char| ['"', ' ', '\t', '/'].contains(&it) || COMMENT_MARKS.contains(&it);
-    let names = line.trim_start_matches(is_mark);
-    let fields = [separator, ' '].map(|separator| Fields::of(names, separator));
-    let are_names = |fields: &Fields| ColumnNames::of(fields).coordinates().is_some();
-    fields.into_iter().find(are_names)
+/// Begin a section at a line, which ends the one before.
+fn begin<'a>(sections: &mut Vec<Section<'a>>, line: &TableLine, section: Section<'a>) {
+    if let Some(last) = sections.last_mut() {
+        let lines = match last {
+            Section::Curve(block) => &mut block.lines,
+            Section::Points(section) => &mut section.lines,
+        };
+        *lines = lines.before(line);
+    }
+    sections.push(section);
 }
 
 impl<'a> Section<'a> {
-    fn announced(line: usize, header: TableHeader) -> Self {
-        let lines = Vec::new();
+    fn announced(line: usize, header: TableHeader, lines: Lines<'a>) -> Self {
         match header.curve {
             Some(curve) => Self::Curve(Block {
                 line,
                 header: curve,
                 name: header.name,
                 lines,
+                has_columns: false,
             }),
             None => Self::Points(PointSection {
                 line,
                 is_announced: true,
                 name: header.name,
                 lines,
+                has_rows: false,
             }),
         }
     }
 
-    fn lines(&mut self) -> &mut Vec<TableLine<'a>> {
-        match self {
-            Self::Curve(block) => &mut block.lines,
-            Self::Points(section) => &mut section.lines,
-        }
-    }
-
     /// Whether a line has the names of the columns of other points.
-    fn ends_before(&self, line: &TableLine) -> bool {
-        let fields = match &line.content {
-            LineContent::Fields(fields) if fields.numbers() == 0 => fields,
-            _ => return false,
-        };
+    fn ends_before(&self, fields: &Fields) -> bool {
+        if fields.numbers() > 0 {
+            return false;
+        }
         let names = ColumnNames::of(fields);
         names.coordinates().is_some()
             && match self {
-                Self::Curve(block) => !names.has_weights() && block.has_columns(),
-                Self::Points(section) => section.has_rows(),
+                Self::Curve(block) => !names.has_weights() && block.has_columns,
+                Self::Points(section) => section.has_rows,
             }
     }
 }
@@ -459,7 +456,9 @@ struct Block<'a> {
     line: usize,
     header: CurveHeader,
     name: Option<String>,
-    lines: Vec<TableLine<'a>>,
+    lines: Lines<'a>,
+    /// Whether a line that names its columns was found.
+    has_columns: bool,
 }
 
 /// The vertices of a table.
@@ -474,11 +473,6 @@ struct Vertices {
 }
 
 impl Block<'_> {
-    fn has_columns(&self) -> bool {
-        let mut lines = self.lines.iter();
-        lines.any(|line| matches!(line.content, LineContent::Fields(_)))
-    }
-
     fn into_curve(
         self,
         number: usize,
@@ -486,7 +480,7 @@ impl Block<'_> {
         remarks: &mut Remarks,
     ) -> Result<Curve, ReadError> {
         let mut table = Vertices::default();
-        for line in &self.lines {
+        for line in self.lines.split() {
             if let LineContent::Fields(fields) = &line.content {
                 let taken = table.take(line.number, fields, decimals);
                 taken.map_err(|problem| Place::line(line.number).problem(problem))?;

@@ -20,11 +20,26 @@ const MISSING: [&str; 8] = ["nan", "-nan", "inf", "-inf", "na", "n/a", "#n/a", "
 /// How many rows of numbers decide on the separator. More would read large files twice.
 const DECIDING: usize = 256;
 
+/// Lines of a file that follow each other. They are split into fields each time: those of millions would take too much
+/// memory.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Lines<'a> {
+    /// The text of the file.
+    text: &'a str,
+    /// The place of the first line in it, and that behind the last, in bytes.
+    range: [usize; 2],
+    /// The number of the first line, counted from 1.
+    first: usize,
+    separator: char,
+}
+
 /// A line of a table.
 #[derive(Clone, Debug)]
 pub(super) struct TableLine<'a> {
     /// The number of the line, counted from 1.
     pub(super) number: usize,
+    /// Where it begins in the text of the file, in bytes.
+    at: usize,
     /// The line as it stands in the file.
     pub(super) text: &'a str,
     /// The content.
@@ -66,8 +81,6 @@ impl<'a> Fields<'a> {
         let width = values.len();
         let filled = values.iter().rposition(|value| !value.is_empty());
         values.truncate(filled.map_or(0, |last| last + 1));
-        // Files have hundreds of thousands of lines.
-        values.shrink_to_fit();
         Self { values, width }
     }
 
@@ -169,15 +182,59 @@ pub(super) fn separator(text: &str) -> char {
         .unwrap_or(',')
 }
 
-/// Split a text into lines and these into fields.
-pub(super) fn lines(text: &str, separator: char) -> impl Iterator<Item = TableLine<'_>> {
-    (1..)
-        .zip(text.lines())
-        .map(move |(number, text)| TableLine {
-            number,
+impl<'a> Lines<'a> {
+    /// All lines of a file.
+    pub(super) fn all(text: &'a str, separator: char) -> Self {
+        Self {
             text,
-            content: content(text, separator),
+            range: [0, text.len()],
+            first: 1,
+            separator,
+        }
+    }
+
+    /// These from a line of them on.
+    pub(super) fn from(mut self, line: &TableLine) -> Self {
+        self.range[0] = line.at;
+        self.first = line.number;
+        self
+    }
+
+    /// These behind a line of them.
+    pub(super) fn after(mut self, line: &TableLine) -> Self {
+        self.range[0] = self.range[1].min(line.at + line.text.len() + 1);
+        self.first = line.number + 1;
+        self
+    }
+
+    /// These before a line of them.
+    pub(super) fn before(mut self, line: &TableLine) -> Self {
+        self.range[1] = line.at;
+        self
+    }
+
+    /// What stands between their fields.
+    pub(super) fn separator(&self) -> char {
+        self.separator
+    }
+
+    /// Split them into fields, one after the other.
+    pub(super) fn split(self) -> impl Iterator<Item = TableLine<'a>> {
+        let [mut end, last] = self.range;
+        let text = self.text.get(end..last).unwrap_or_default();
+        let lines = (self.first..).zip(text.split_inclusive('\n'));
+        lines.map(move |(number, line)| {
+            let at = end;
+            end += line.len();
+            let text = line.strip_suffix('\n').unwrap_or(line);
+            TableLine {
+                number,
+                at,
+                text,
+                content: content(text, self.separator),
+            }
         })
+    }
 }
 
 fn content(line: &str, separator: char) -> LineContent<'_> {

@@ -1,7 +1,6 @@
 //! Lists of points in tables as other programs write them: with titles, other columns, text between the
 //! rows, and airfoils in either order.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -10,9 +9,10 @@ use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer, uncounted, 
 use super::decimals::{Decimals, is_number, measured};
 use super::error::{Place, Problem, ReadError};
 use super::exchange::spending::most_items;
+use super::point_section::{Content, PointSection, Usual};
 use super::reading::{Reading, Remark, Remarks, nameless};
 use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, Coordinates, WEIGHT, columns};
-use super::table_lines::{Fields, LineContent, TableLine};
+use super::table_lines::Fields;
 use super::tangent_plane::{TangentPlane, position};
 use crate::document::Reference;
 use crate::geometry::expressions::LengthUnit;
@@ -25,19 +25,6 @@ const COUNTERS: [&str; 10] = [
 
 /// No section of an airfoil has more points. To look for one takes memory.
 const MOST_OF_AIRFOIL: usize = 100_000;
-
-/// Lines of a table that hold points: those below one line with column names, if there is one.
-#[derive(Debug, Default)]
-pub(super) struct PointSection<'a> {
-    /// The number of the first line.
-    pub(super) line: usize,
-    /// Whether a line with # announces the points.
-    pub(super) is_announced: bool,
-    /// The name that the line with # gives.
-    pub(super) name: Option<String>,
-    /// The lines.
-    pub(super) lines: Vec<TableLine<'a>>,
-}
 
 /// Read the sections of a file, and collect the remarks on them.
 pub(super) struct PointReader<'a> {
@@ -73,17 +60,22 @@ struct List {
     is_on_earth: bool,
 }
 
-/// Rows without a blank line between them, with the text above them.
+/// Rows without a blank line between them, one behind the other, with the texts above them.
 #[derive(Default)]
-struct Block {
-    title: Option<(usize, String)>,
+struct Blocks {
     rows: Vec<Row>,
+    /// Behind which row each block ends.
+    ends: Vec<usize>,
+    /// The titles with their blocks and lines.
+    titles: Vec<(usize, usize, String)>,
 }
 
 /// Which fields of which lines are coordinates.
 struct Layout {
     /// The number of columns of most rows.
     count: usize,
+    /// How many rows these are.
+    rows: usize,
     /// The number of column names, if there are more.
     named: usize,
     /// The line with the names.
@@ -104,17 +96,24 @@ enum Found {
     TooLarge(String),
 }
 
-impl PointSection<'_> {
-    /// Whether a line that could be a row is among them.
-    pub(super) fn has_rows(&self) -> bool {
-        self.fields().any(|(_, fields)| fields.numbers() >= 2)
+impl Blocks {
+    /// End a block, which may have a title at a line.
+    fn end(&mut self, title: Option<(usize, String)>) {
+        let block = self.ends.len();
+        self.titles
+            .extend(title.map(|(line, title)| (block, line, title)));
+        self.ends.push(self.rows.len());
     }
 
-    fn fields(&self) -> impl Iterator<Item = (usize, &Fields<'_>)> {
-        self.lines.iter().filter_map(|line| match &line.content {
-            LineContent::Fields(fields) => Some((line.number, fields)),
-            _ => None,
-        })
+    /// Whether there are rows behind the last block.
+    fn is_open(&self) -> bool {
+        self.ends.last().copied().unwrap_or_default() < self.rows.len()
+    }
+
+    /// The numbers of rows of the blocks.
+    fn lengths(&self) -> impl Iterator<Item = usize> {
+        let begins = [0].into_iter().chain(self.ends.iter().copied());
+        self.ends.iter().zip(begins).map(|(end, begin)| end - begin)
     }
 }
 
@@ -153,10 +152,10 @@ impl<'a> PointReader<'a> {
             Some(layout) => self.blocks(section, layout, decimals)?,
             None => {
                 self.skipped.extend(section.fields().map(|(line, _)| line));
-                Vec::new()
+                Blocks::default()
             }
         };
-        if blocks.is_empty() && section.is_announced {
+        if blocks.ends.is_empty() && section.is_announced {
             let found = 0;
             let error = ReferenceError::TooFewPoints { found };
             return Err(Place::line(section.line).problem(error.into()));
@@ -167,28 +166,36 @@ impl<'a> PointReader<'a> {
             false => self.in_order(blocks),
         };
         let blocks = self.joined(blocks);
-        let title = blocks.first().and_then(|block| block.title.clone());
-        let title = title.map(|(_, title)| title).or(section.name.clone());
-        let several = blocks.len() > 1;
-        for (block, number) in blocks.into_iter().zip(1..) {
-            if let ([only], true) = (&block.rows[..], several) {
+        let lengths: Vec<usize> = blocks.lengths().collect();
+        let several = lengths.len() > 1;
+        let mut rows = blocks.rows.into_iter();
+        let mut titles = blocks.titles.into_iter().peekable();
+        let first = titles.peek().filter(|(block, ..)| *block == 0);
+        let title = first.map(|(.., title)| title.clone());
+        let title = title.or(section.name.clone());
+        for (index, length) in lengths.into_iter().enumerate() {
+            let rows: Vec<Row> = match several {
+                true => rows.by_ref().take(length).collect(),
+                false => std::mem::take(&mut rows).collect(),
+            };
+            let own = titles.next_if(|(block, ..)| *block == index);
+            if let ([only], true) = (&rows[..], several) {
                 self.skipped.push(only.line);
-                self.skipped
-                    .extend(block.title.iter().map(|(line, _)| *line));
+                self.skipped.extend(own.map(|(_, line, _)| line));
                 continue;
             }
-            let own = block.title.map(|(_, title)| title);
-            let numbered = title.as_ref().map(|title| match number {
-                1 => title.clone(),
-                _ => format!("{title}, block {number}"),
+            let numbered = title.as_ref().map(|title| match index {
+                0 => title.clone(),
+                _ => format!("{title}, block {}", index + 1),
             });
-            let may_be_airfoil = !is_on_earth && block.rows.len() <= MOST_OF_AIRFOIL;
+            let may_be_airfoil = !is_on_earth && rows.len() <= MOST_OF_AIRFOIL;
             let order = told.or_else(|| {
-                let rows = may_be_airfoil.then_some(&block.rows)?;
+                let rows = may_be_airfoil.then_some(&rows)?;
                 let points: Vec<DVec3> = rows.iter().map(|row| row.point).collect();
                 is_selig(&points).then_some(AirfoilOrder::Selig)
             });
-            self.add(section.line, own.or(numbered), block.rows, is_on_earth)?;
+            let own = own.map(|(.., title)| title);
+            self.add(section.line, own.or(numbered), rows, is_on_earth)?;
             if let (Some(order), Some(added)) = (order, self.lists.last()) {
                 let name = added.name.clone();
                 self.remarks.add(Remark::Airfoil { name, order });
@@ -254,16 +261,13 @@ impl<'a> PointReader<'a> {
 
     /// Find out which columns hold the coordinates; `None` if no line can be a row.
     fn layout(&mut self, section: &PointSection) -> Result<Option<Layout>, ReadError> {
-        let rows = section.fields();
-        let mut rows: Vec<(usize, &Fields)> =
-            rows.filter(|(_, fields)| fields.numbers() >= 2).collect();
-        let Some(count) = most_frequent(rows.iter().map(|(_, fields)| fields.values.len())) else {
+        let Some(usual) = section.usual() else {
             return Ok(None);
         };
-        rows.retain(|(_, fields)| fields.values.len() == count);
-        let first = rows.first().map_or(section.line, |(line, _)| *line);
-        let names = self.names(section, first, count);
-        let place = Place::line(names.as_ref().map_or(first, |(line, _)| *line));
+        let count = usual.count;
+        let contents = section.contents(count);
+        let names = self.names(section, &usual);
+        let place = Place::line(names.as_ref().map_or(usual.first, |(line, _)| *line));
         let named = names.as_ref().map(|(_, names)| names);
         let most = count.max(named.map_or(0, ColumnNames::count));
         let weight = self.choice.map(|choice| choice.weight(named, most));
@@ -277,7 +281,7 @@ impl<'a> PointReader<'a> {
             (None, _) => {
                 let named_so = named.and_then(ColumnNames::coordinates);
                 let numeric = || {
-                    let places = self.numeric(&rows, count, named, weight.flatten());
+                    let places = self.numeric(&contents, usual.rows, named, weight.flatten());
                     places.map(Coordinates::of_lengths)
                 };
                 named_so.map_or_else(numeric, Ok)
@@ -285,7 +289,7 @@ impl<'a> PointReader<'a> {
         };
         let coordinates = coordinates.map_err(|it| place.clone().problem(it))?;
         let places = coordinates.places.iter();
-        let units = places.map(|place| common_unit(&rows, *place));
+        let units = places.map(|place| contents.get(*place)?.unit.clone());
         let units: Vec<Option<String>> = units.collect();
         let taken = match coordinates.on_earth {
             Some(_) => self.take_unit(LengthUnit::Metre),
@@ -294,6 +298,7 @@ impl<'a> PointReader<'a> {
         taken.map_err(|it| place.problem(it))?;
         Ok(Some(Layout {
             count,
+            rows: usual.rows,
             named: names.as_ref().map_or(0, |(_, names)| names.count()),
             names: names.map(|(line, _)| line),
             coordinates,
@@ -304,13 +309,9 @@ impl<'a> PointReader<'a> {
 
     /// Find the line with the column names: the last line of text above the first row, if it names x and y
     /// or, where that is no title, has as many fields as the rows.
-    fn names(
-        &self,
-        section: &PointSection,
-        first: usize,
-        count: usize,
-    ) -> Option<(usize, ColumnNames)> {
-        let above = section.fields().take_while(|(line, _)| *line < first);
+    fn names(&self, section: &PointSection, usual: &Usual) -> Option<(usize, ColumnNames)> {
+        let (count, width) = (usual.count, usual.width);
+        let above = section.fields().take_while(|(line, _)| *line < usual.first);
         let is_rule = |fields: &Fields| {
             fields
                 .values
@@ -321,7 +322,7 @@ impl<'a> PointReader<'a> {
             fields.numbers() == 0 && !is_rule(fields) && !fields.lack_a_number()
         });
         let (line, fields) = words.last()?;
-        let names = ColumnNames::of(fields);
+        let names = ColumnNames::of(&fields);
         // Words of a title are seldom divided by commas or semicolons.
         let is_title = match self.separator {
             _ if self.choice.is_some_and(ColumnChoice::has_names) => false,
@@ -330,8 +331,6 @@ impl<'a> PointReader<'a> {
             _ => false,
         };
         // The last column of a spreadsheet may be empty in all rows.
-        let row = section.fields().find(|(line, _)| *line == first);
-        let width = row.map_or(count, |(_, fields)| fields.width);
         let fits = [count, width].contains(&names.count());
         let is_there = |place: &usize| *place < count.max(width);
         let coordinates = names.coordinates();
@@ -346,29 +345,21 @@ impl<'a> PointReader<'a> {
     /// [`Problem::AmbiguousColumns`] if there may be others.
     fn numeric(
         &mut self,
-        rows: &[(usize, &Fields)],
-        count: usize,
+        contents: &[Content],
+        rows: usize,
         names: Option<&ColumnNames>,
         weight: Option<usize>,
     ) -> Result<Vec<usize>, Problem> {
-        let are_mostly = |place: &usize| {
-            let numbers = rows
-                .iter()
-                .filter(|(_, fields)| is_number(&fields.values[*place]));
-            2 * numbers.count() > rows.len() || common_unit(rows, *place).is_some()
+        let is_named = |place: usize| {
+            let name = names.and_then(|names| names.get(place));
+            name.is_some_and(is_counter)
         };
-        let counts = |place: &usize| {
-            let is_named = names
-                .and_then(|names| names.get(*place))
-                .is_some_and(is_counter);
-            let numbers = rows
-                .iter()
-                .map(|(_, fields)| fields.values[*place].parse::<u64>().ok());
-            let numbers: Option<Vec<u64>> = numbers.collect();
-            is_named && numbers.is_some_and(|it| it.is_sorted_by(|a, b| *b == *a + 1))
-        };
-        let others = (0..count).filter(|place| Some(*place) != weight && !counts(place));
-        let places: Vec<usize> = others.filter(are_mostly).collect();
+        let columns_of_numbers = contents.iter().enumerate().filter(|(place, content)| {
+            let counts = content.counter.is_some() && is_named(*place);
+            let are_mostly = 2 * content.numbers > rows || content.unit.is_some();
+            Some(*place) != weight && !counts && are_mostly
+        });
+        let places: Vec<usize> = columns_of_numbers.map(|(place, _)| place).collect();
         match (places.len(), names) {
             (2, Some(_)) => {
                 let columns = columns(names, places.iter().copied());
@@ -430,22 +421,25 @@ impl<'a> PointReader<'a> {
         section: &PointSection,
         layout: &Layout,
         decimals: &mut Decimals,
-    ) -> Result<Vec<Block>, ReadError> {
-        let mut blocks = Vec::new();
-        let mut block = Block::default();
-        let mut lists = self.lists.len();
-        for line in &section.lines {
-            let LineContent::Fields(fields) = &line.content else {
-                if !block.rows.is_empty() {
-                    lists += usize::from(block.rows.len() > 1);
+    ) -> Result<Blocks, ReadError> {
+        let mut blocks = Blocks {
+            rows: Vec::with_capacity(layout.rows),
+            ..Blocks::default()
+        };
+        let mut title_above: Option<(usize, String)> = None;
+        let (mut lists, mut begin) = (self.lists.len(), 0);
+        for (line, fields) in section.split() {
+            let Some(fields) = fields else {
+                if blocks.is_open() {
+                    lists += usize::from(blocks.rows.len() - begin > 1);
                     self.check_count(lists, line.number)?;
-                    block.rows.shrink_to_fit();
-                    blocks.push(std::mem::take(&mut block));
+                    begin = blocks.rows.len();
+                    blocks.end(title_above.take());
                 }
                 continue;
             };
-            match layout.found(line.number, fields, decimals) {
-                Ok(Found::Row(row)) => block.rows.push(row),
+            match layout.found(line.number, &fields, decimals) {
+                Ok(Found::Row(row)) => blocks.rows.push(row),
                 Ok(Found::TooLarge(text)) => {
                     let (_, lines) = self.too_large.get_or_insert((text, Vec::new()));
                     lines.push(line.number);
@@ -453,69 +447,67 @@ impl<'a> PointReader<'a> {
                 Ok(Found::Text) if layout.names == Some(line.number) => {}
                 Ok(Found::Text) if fields.lack_a_number() => self.skipped.push(line.number),
                 Ok(Found::Text) => match title(line.text) {
-                    Some(title) if block.rows.is_empty() && block.title.is_none() => {
-                        block.title = Some((line.number, title));
+                    Some(title) if !blocks.is_open() && title_above.is_none() => {
+                        title_above = Some((line.number, title));
                     }
                     _ => self.skipped.push(line.number),
                 },
                 Err(problem) => return Err(Place::line(line.number).problem(problem)),
             }
         }
-        match block.rows.is_empty() {
-            true => self.skipped.extend(block.title.map(|(line, _)| line)),
-            false => blocks.push(block),
+        match blocks.is_open() {
+            true => blocks.end(title_above),
+            false => self.skipped.extend(title_above.map(|(line, _)| line)),
         }
         Ok(blocks)
     }
 
     /// Bring an airfoil in Lednicer order into that around the section.
-    fn in_order(&mut self, blocks: Vec<Block>) -> (Vec<Block>, Option<AirfoilOrder>) {
-        if blocks.iter().map(|block| block.rows.len()).sum::<usize>() > MOST_OF_AIRFOIL {
+    fn in_order(&mut self, blocks: Blocks) -> (Blocks, Option<AirfoilOrder>) {
+        let Blocks { rows, ends, .. } = &blocks;
+        if rows.len() > MOST_OF_AIRFOIL {
             return (blocks, None);
         }
-        let rows: Vec<Row> = blocks
-            .iter()
-            .flat_map(|it| it.rows.iter().copied())
-            .collect();
         let points: Vec<DVec3> = rows.iter().map(|row| row.point).collect();
-        let lengths = blocks.iter().map(|block| block.rows.len());
-        let ends = lengths.scan(0, |end, length| {
-            *end += length;
-            Some(*end)
-        });
-        let ends: Vec<usize> = ends.collect();
         let is_same = |a: Row, b: Row| a.point == b.point;
-        let (rows, order) = if let Some(sides) = lednicer(&points, &ends) {
+        let (rows, order) = if let Some(sides) = lednicer(&points, ends) {
             if !sides.are_counted {
                 self.remarks.add(Remark::Counts { line: rows[0].line });
             }
             let rows = around(&rows[1..], sides.split, is_same);
             (rows, AirfoilOrder::Lednicer)
-        } else if let Some(sides) = uncounted(&points, &ends) {
+        } else if let Some(sides) = uncounted(&points, ends) {
             if !sides.is_certain {
                 let counts = [sides.split, rows.len() - sides.split];
                 self.remarks.add(Remark::MaybeSides { counts });
                 return (blocks, None);
             }
-            let (rows, split) = upper_first(&rows, sides.split, sides.is_upper_second);
+            let (rows, split) = upper_first(rows, sides.split, sides.is_upper_second);
             (around(&rows, split, is_same), AirfoilOrder::Uncounted)
         } else {
             return (blocks, None);
         };
-        let mut titles = blocks.into_iter().filter_map(|block| block.title);
-        let title = titles.next();
-        self.skipped.extend(titles.map(|(line, _)| line));
-        (vec![Block { title, rows }], Some(order))
+        let mut titles = blocks.titles.into_iter();
+        let title = titles.next().map(|(_, line, title)| (line, title));
+        self.skipped.extend(titles.map(|(_, line, _)| line));
+        let mut around = Blocks {
+            rows,
+            ..Blocks::default()
+        };
+        around.end(title);
+        (around, Some(order))
     }
 
     /// Join blocks of one row each: there a blank line follows every row.
-    fn joined(&mut self, mut blocks: Vec<Block>) -> Vec<Block> {
-        if blocks.iter().all(|block| block.rows.len() == 1) && !blocks.is_empty() {
-            let others = blocks.split_off(1);
-            for Block { title, rows } in others {
-                self.skipped.extend(title.map(|(line, _)| line));
-                blocks[0].rows.extend(rows);
-            }
+    fn joined(&mut self, mut blocks: Blocks) -> Blocks {
+        let are_single = blocks.rows.len() == blocks.ends.len();
+        if are_single && !blocks.ends.is_empty() {
+            blocks.ends = vec![blocks.rows.len()];
+            let (first, others): (Vec<_>, Vec<_>) =
+                blocks.titles.into_iter().partition(|it| it.0 == 0);
+            blocks.titles = first;
+            self.skipped
+                .extend(others.into_iter().map(|(_, line, _)| line));
         }
         blocks
     }
@@ -649,34 +641,10 @@ impl Layout {
     }
 }
 
-/// The unit behind all numbers of a column; `None` if there is none, or not the same everywhere.
-fn common_unit(rows: &[(usize, &Fields)], place: usize) -> Option<String> {
-    let unit = |(_, fields): &(usize, &Fields)| {
-        let (_, unit) = measured(fields.values.get(place)?)?;
-        Some(unit.to_owned())
-    };
-    let first = unit(rows.first()?)?;
-    let is_common = rows.iter().all(|row| unit(row).as_ref() == Some(&first));
-    is_common.then_some(first)
-}
-
 /// Whether a column's name is one of a row's number.
 fn is_counter(name: &str) -> bool {
     let name = name.trim_end_matches('.').to_lowercase();
     COUNTERS.contains(&name.as_str())
-}
-
-/// Find the most frequent number; of several the one that comes first.
-fn most_frequent(numbers: impl Iterator<Item = usize>) -> Option<usize> {
-    let mut counts: HashMap<usize, (usize, usize)> = HashMap::new();
-    for (place, number) in numbers.enumerate() {
-        counts.entry(number).or_insert((0, place)).0 += 1;
-    }
-    let rated = |(_, (count, place)): &(usize, (usize, usize))| (*count, usize::MAX - place);
-    counts
-        .into_iter()
-        .max_by_key(rated)
-        .map(|(number, _)| number)
 }
 
 /// Whether a text is a number that only lacks a larger exponent to be finite.
