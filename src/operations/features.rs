@@ -11,7 +11,7 @@ use super::operands::Operands;
 use super::outcome::Outcome;
 use crate::document::{Curve, CurveId, Document};
 use crate::geometry::features::{Feature, Features, Verdict};
-use crate::geometry::harmony::{Harmony, SegmentFairness};
+use crate::geometry::harmony::Harmony;
 use crate::geometry::polygon_figures::{FOLD, sharpest_turn};
 use crate::geometry::{BezierPolygon, FloatPolygon, Progress, significant};
 
@@ -278,10 +278,7 @@ impl Proof<'_> {
             self.advance(1);
             !self.progress.is_cancelled()
         })?;
-        let planar = polygon.is_planar();
-        let fairness = |segment| SegmentFairness::new(polygon, segment, planar);
-        let fairness: Vec<_> = (0..polygon.segments()).map(fairness).collect();
-        let harmony = Harmony::assemble(polygon, &features, &fairness);
+        let harmony = Harmony::of(polygon, &features);
         Some((features, harmony))
     }
 

@@ -1,5 +1,6 @@
 //! Harmonising: the least change that leaves the features asked for.
 
+use std::f64::consts::PI;
 use std::ops::Bound;
 
 use glam::DVec3;
@@ -23,7 +24,7 @@ use crate::geometry::fairing::harmonising::{
 };
 use crate::geometry::fairing::requirement::Requirement;
 use crate::geometry::features::Features;
-use crate::geometry::harmony::unevenness;
+use crate::geometry::harmony::{Fairness, SegmentFairness, unevenness};
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{
     BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, percent, rounded_up,
@@ -143,6 +144,11 @@ const MAX_DEVIATION: Parameter = Parameter {
 const TORN: f64 = 2.0;
 const MUCH_LESS_EVEN: f64 = 3.0;
 
+/// The curvature is steep where its variation ∫κ′² ds · L³ is above that of a curvature that falls evenly from that of a
+/// circle to 0, and so many times that before: nearly a step is left where a wave was.
+const STEEP: f64 = 4.0 * PI * PI;
+const MUCH_STEEPER: f64 = 3.0;
+
 /// A move of a vertex by more than this share of the curve's size is named.
 const FAR_MOVE: f64 = 0.5;
 
@@ -249,6 +255,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         format!("Vertex {vertex} moves by {distance}, farther than the polygon is large: ask for more features")
     });
     let torn = torn(&curve.polygon, &found.polygon);
+    let steep = steeper(&curve.polygon, &found.polygon);
     let is_wrong = turned.is_some() || flung.is_some() || torn.is_some();
     let failed = is_wrong.then_some(Requirement::Failed { left: None });
     let requirements = found.requirements.iter().cloned().chain(failed);
@@ -264,6 +271,7 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
         .into_iter()
         .chain(flung.or_else(|| tail(&curve.polygon, &found.polygon)))
         .chain(torn)
+        .chain(steep)
         .collect();
     let raised = required.into_iter().filter_map(|(_, remark)| remark);
     outcome.remarks.extend(raised);
@@ -395,6 +403,22 @@ fn torn(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
     let (was, now) = was.zip(now)?;
     (now > TORN && now > MUCH_LESS_EVEN * was).then(|| {
         "The polygon gets far less even, in its legs or its angles: ask for more features, or refine first".to_owned()
+    })
+}
+
+/// Say that the curvature changes far more steeply than before.
+fn steeper(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
+    let variation = |polygon: &FloatPolygon| {
+        let segments = SegmentFairness::all(polygon);
+        Fairness::of(&segments, polygon.degree() - 1).variation
+    };
+    let now = variation(after).filter(|now| *now > STEEP)?;
+    let times = now / variation(before)?;
+    (times > MUCH_STEEPER).then(|| {
+        let times = significant(times, 2);
+        format!(
+            "The curvature changes more steeply, its variation is {times} times as large: ask for more features"
+        )
     })
 }
 

@@ -1,6 +1,7 @@
 //! Fairness in numbers: bending energy and variation of the curvature.
 
 use super::graph_moments::GraphMoments;
+use crate::geometry::float_polygon::FloatPolygon;
 use crate::geometry::parametric_curve::ParametricCurve;
 use crate::geometry::quadrature::{quadrature, settled_quadrature};
 
@@ -48,6 +49,15 @@ const BENDING_TERMS: usize = 3;
 const VARIATION_TERMS: usize = 4;
 
 impl SegmentFairness {
+    /// Measure all segments of a float polygon's curve.
+    pub fn all(polygon: &FloatPolygon) -> Vec<Self> {
+        let planar = polygon.is_planar();
+        let segments = 0..polygon.segments();
+        segments
+            .map(|segment| Self::new(polygon, segment, planar))
+            .collect()
+    }
+
     /// Measure one piece of a curve by adaptive Gauss–Legendre quadrature to a relative tolerance of
     /// 1e-9; `planar` is [`ParametricCurve::is_planar`], which takes time of its own.
     ///

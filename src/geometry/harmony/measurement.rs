@@ -33,10 +33,7 @@ pub struct Harmony {
 impl Harmony {
     /// Measure the harmony of a polygon with the proved features of its curve.
     pub fn of(polygon: &FloatPolygon, features: &Features) -> Self {
-        let planar = polygon.is_planar();
-        let segments = 0..polygon.segments();
-        let segments = segments.map(|segment| SegmentFairness::new(polygon, segment, planar));
-        Self::assemble(polygon, features, &segments.collect::<Vec<_>>())
+        Self::assemble(polygon, features, &SegmentFairness::all(polygon))
     }
 
     /// Put the harmony together with the fairness of all segments, in time proportional to the
