@@ -1,5 +1,7 @@
 //! Numbers of tables, whose decimals follow a point or, in many countries, a comma.
 
+use std::borrow::Cow;
+
 use super::error::{Place, Problem, ReadError};
 use super::reading::Remark;
 
@@ -39,10 +41,13 @@ impl Decimals {
     ) -> Result<f64, Problem> {
         let text = text.trim();
         // Typesetters and some spreadsheets write the minus sign itself.
-        let plain = text.replace('\u{2212}', "-");
+        let plain = match text.is_ascii() {
+            true => Cow::Borrowed(text),
+            false => Cow::Owned(text.replace('\u{2212}', "-")),
+        };
         let ungrouped = ungrouped(&plain);
         let is_grouped = ungrouped.is_some();
-        let plain = ungrouped.unwrap_or(plain);
+        let plain = ungrouped.map_or(plain, Cow::Owned);
         let mark = match (plain.contains('.'), plain.contains(',')) {
             (false, false) => None,
             (true, _) => Some(DecimalMark::Point),

@@ -47,7 +47,7 @@ pub(super) struct Content {
 impl<'a> PointSection<'a> {
     /// Look at a line of it.
     pub(super) fn note(&mut self, fields: &Fields) {
-        self.has_rows = self.has_rows || fields.numbers() >= 2;
+        self.has_rows = self.has_rows || fields.have_numbers(2);
     }
 
     /// Split the lines; of comments those with the names of columns. Blank lines have no fields.
@@ -75,7 +75,7 @@ impl<'a> PointSection<'a> {
 
     /// The lines that could be rows.
     fn rows(&self) -> impl Iterator<Item = (usize, Fields<'a>)> {
-        self.fields().filter(|(_, fields)| fields.numbers() >= 2)
+        self.fields().filter(|(_, fields)| fields.have_numbers(2))
     }
 
     /// Find the most frequent number of fields; of several the one that comes first. `None` if no line can be a row.

@@ -276,7 +276,7 @@ impl<'a> Section<'a> {
 
     /// Whether a line has the names of the columns of other points.
     fn ends_before(&self, fields: &Fields) -> bool {
-        if fields.numbers() > 0 {
+        if fields.have_numbers(1) {
             return false;
         }
         let names = ColumnNames::of(fields);

@@ -89,10 +89,10 @@ impl<'a> Fields<'a> {
         self.width > MOST_COLUMNS
     }
 
-    /// How many of them are numbers, with a unit behind them or without.
-    pub(super) fn numbers(&self) -> usize {
+    /// Whether at least so many of them are numbers, with a unit behind them or without.
+    pub(super) fn have_numbers(&self, least: usize) -> bool {
         let are_numbers = |text: &&Cow<str>| is_number(text) || measured(text).is_some();
-        self.values.iter().filter(are_numbers).count()
+        self.values.iter().filter(are_numbers).take(least).count() == least
     }
 
     /// Whether they are a row in which a number is missing, such as `0.5, NaN`.
@@ -108,7 +108,7 @@ impl<'a> Fields<'a> {
             let mut words = value.split(|mark: char| mark.is_whitespace() || mark == ';');
             words.clone().count() > 1 && words.all(is_number) && !is_number(value)
         };
-        self.numbers() >= 2 && !self.values.iter().any(is_unsplit)
+        self.have_numbers(2) && !self.values.iter().any(is_unsplit)
     }
 }
 

@@ -319,7 +319,7 @@ impl<'a> PointReader<'a> {
                 .all(|it| !it.contains(char::is_alphanumeric))
         };
         let words = above.filter(|(_, fields)| {
-            fields.numbers() == 0 && !is_rule(fields) && !fields.lack_a_number()
+            !fields.have_numbers(1) && !is_rule(fields) && !fields.lack_a_number()
         });
         let (line, fields) = words.last()?;
         let names = ColumnNames::of(&fields);
@@ -670,6 +670,6 @@ pub(super) fn is_title(text: &str) -> bool {
     title(text).is_some_and(|title| title == text)
         && !text.starts_with('#')
         && !text.contains(char::is_control)
-        && fields.numbers() < 2
+        && !fields.have_numbers(2)
         && ColumnNames::of(&fields).coordinates().is_none()
 }
