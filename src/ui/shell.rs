@@ -82,7 +82,7 @@ const MOST_KEPT: usize = 50;
 impl Shell {
     /// The choice of the last export of a document, by its path.
     pub fn export_of(&self, path: &Path) -> Option<ExportChoice> {
-        let (_, settings) = self.exports.iter().find(|(known, _)| known == path)?;
+        let settings = kept(&self.exports, path)?;
         ExportChoice::of_settings(settings)
     }
 
@@ -93,8 +93,7 @@ impl Shell {
 
     /// How a document is judged, by its path.
     pub fn judging_of(&self, path: &Path) -> Option<&Judging> {
-        let (_, judging) = self.judgings.iter().find(|(known, _)| known == path)?;
-        Some(judging)
+        kept(&self.judgings, path)
     }
 
     /// Keep how a document is judged.
@@ -119,16 +118,42 @@ impl Shell {
     }
 }
 
+/// What is kept of a document.
+fn kept<'k, T>(all: &'k [(PathBuf, T)], path: &Path) -> Option<&'k T> {
+    let path = wherever(path);
+    let (_, kept) = all.iter().find(|(known, _)| *known == path)?;
+    Some(kept)
+}
+
+/// The path of a document that does not depend on the folder in which the program was started.
+fn wherever(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// Keep something of a document in front of the others.
 fn keep<T>(all: &mut Vec<(PathBuf, T)>, path: &Path, kept: T) {
-    all.retain(|(known, _)| known != path);
-    all.insert(0, (path.to_owned(), kept));
+    let path = wherever(path);
+    all.retain(|(known, _)| *known != path);
+    all.insert(0, (path, kept));
     all.truncate(MOST_KEPT);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_kept_of_a_document_is_found_from_any_folder() {
+        let mut shell = Shell::default();
+        let judging = Judging::default();
+        shell.keep_judging(Path::new("job.batten"), judging.clone());
+        let folder = std::env::current_dir().expect("a folder");
+        let path = folder.join("job.batten");
+        assert_eq!(shell.judging_of(&path), Some(&judging));
+        assert_eq!(shell.judging_of(Path::new("/elsewhere/job.batten")), None);
+        shell.keep_judging(&path, judging);
+        assert_eq!(shell.judgings.len(), 1);
+    }
 
     #[test]
     fn layers_are_kept_by_name_and_old_places_are_still_read() {
