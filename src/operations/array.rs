@@ -6,6 +6,7 @@ use std::ops::Bound;
 use glam::DVec3;
 
 use super::amount::Amount;
+use super::copied_matches::{Copying, match_own_copies};
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -101,6 +102,8 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
         let copy = place.copy(curve, name)?;
         outcome.edits.push(Edit::Add(Box::new(copy)));
     }
+    outcome.copied = Some(Copying::Moved);
+    match_own_copies(&mut outcome, input)?;
     Ok(outcome)
 }
 

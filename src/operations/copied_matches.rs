@@ -1,7 +1,10 @@
-//! Matches of mirrored copies: each copy follows the copy of what its curve follows, or the image of the place.
+//! Matches of copies: each follows the copy of what its curve follows, or the mirror image of the place.
 
 use glam::DVec3;
 
+use super::error::OperationError;
+use super::operands::Operands;
+use super::outcome::Outcome;
 use crate::document::{CurveId, Document, Edit, EndMatch, MatchPlace, quoted};
 use crate::geometry::{End, FloatPolygon, Mirror};
 
@@ -11,37 +14,61 @@ const ON_CURVE: f64 = 1e-9;
 /// Directions whose cosine is more than this are one, or opposite.
 const ALONG: f64 = 0.999_999;
 
-/// What becomes of the matches of curves whose mirror images are added.
-#[derive(Debug, Default)]
-pub(super) struct CopiedMatches {
-    /// The matches of the copies.
-    pub(super) edits: Vec<Edit>,
-    /// Which copies follow nothing, a line each.
-    pub(super) remarks: Vec<String>,
+/// How copies are made of curves.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Copying {
+    /// Each curve has a mirror image.
+    Mirrored(Mirror),
+    /// Each curve has moved copies, which stand in a row with those of the others.
+    Moved,
 }
 
-impl CopiedMatches {
-    /// Match copies, given with the curves that they are the mirror images of.
-    pub(super) fn of(document: &Document, mirror: &Mirror, copies: &[[CurveId; 2]]) -> Self {
-        let mut found = Self::default();
-        let copy_of = |id: CurveId| copies.iter().find(|it| it[0] == id).map(|it| it[1]);
-        for [own, copy] in copies {
+/// Match the copies that an operation on one curve adds, behind the edits of its outcome; those of several curves are
+/// matched together.
+pub(super) fn match_own_copies(
+    outcome: &mut Outcome,
+    input: &Operands,
+) -> Result<(), OperationError> {
+    let Some(copying) = outcome.copied.clone().filter(|_| !input.has_others()) else {
+        return Ok(());
+    };
+    let (own, _) = input.curve()?;
+    let copies = input.document().next_ids().take(outcome.edits.len());
+    let rows: Vec<_> = copies.map(|copy| vec![[own, copy]]).collect();
+    match_copies(outcome, input.document(), &copying, &rows);
+    Ok(())
+}
+
+/// Match copies behind the edits of an outcome. Those of a row belong together, each is given behind its curve. Remarks
+/// tell which follow nothing.
+pub(super) fn match_copies(
+    outcome: &mut Outcome,
+    document: &Document,
+    copying: &Copying,
+    rows: &[Vec<[CurveId; 2]>],
+) {
+    for row in rows {
+        let copy_of = |id: CurveId| row.iter().find(|it| it[0] == id).map(|it| it[1]);
+        for [own, copy] in row {
             let matches = End::BOTH.map(|end| document.match_of(*own, end));
             for matched in matches.into_iter().flatten() {
-                let image = match copy_of(matched.source) {
-                    Some(source) => Some(EndMatch { source, ..*matched }),
-                    None => image(document, matched, mirror),
+                let copied = match (copy_of(matched.source), copying) {
+                    (Some(source), _) => Some(EndMatch { source, ..*matched }),
+                    (None, Copying::Mirrored(mirror)) => image(document, matched, mirror),
+                    (None, Copying::Moved) => None,
                 };
-                match image {
-                    Some(image) => found.edits.push(Edit::SetMatch(EndMatch {
-                        curve: *copy,
-                        ..image
-                    })),
-                    None => found.remarks.extend(unmatched(document, matched)),
+                if let Some(copied) = copied {
+                    let curve = *copy;
+                    outcome
+                        .edits
+                        .push(Edit::SetMatch(EndMatch { curve, ..copied }));
+                } else if let Some(told) = unmatched(document, matched, copying)
+                    && !outcome.remarks.contains(&told)
+                {
+                    outcome.remarks.push(told);
                 }
             }
         }
-        found
     }
 }
 
@@ -74,12 +101,13 @@ fn place(source: &FloatPolygon, place: MatchPlace, u: f64) -> MatchPlace {
 }
 
 /// Say that a copy follows nothing, though its curve does.
-fn unmatched(document: &Document, matched: &EndMatch) -> Option<String> {
+fn unmatched(document: &Document, matched: &EndMatch, copying: &Copying) -> Option<String> {
     let [own, source] = [matched.curve, matched.source].map(|id| document.name(id).map(quoted));
     let (own, end, source) = (own?, matched.end.name(), source?);
-    let why = match document.reference(matched.source) {
-        Some(_) => "is a reference",
-        None => "is neither mirrored nor its own image",
+    let why = match (document.reference(matched.source), copying) {
+        (Some(_), _) => "is a reference",
+        (None, Copying::Mirrored(_)) => "is neither mirrored nor its own image",
+        (None, Copying::Moved) => "is not copied",
     };
     Some(format!(
         "The {end} of the copy of {own} is not matched: {source} {why}"

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::copied_matches::CopiedMatches;
+use super::copied_matches;
 use super::error::OperationError;
 use super::operands::Operands;
 use super::operation::Operation;
@@ -99,11 +99,12 @@ fn name_added(document: &Document, shares: &mut [Share]) {
     }
 }
 
-/// Match the copies that several runs of one operation add, behind all of their edits.
+/// Match the copies that several runs of one operation add, behind all of their edits. The first copies of all curves
+/// belong together, then the second, and so on.
 fn match_copies(document: &Document, shares: &mut [Share]) {
     let mut ids = document.next_ids();
-    let mut copies = Vec::new();
-    let mut mirror = None;
+    let mut rows: Vec<Vec<[CurveId; 2]>> = Vec::new();
+    let mut copying = None;
     for share in &*shares {
         let Ok(outcome) = &share.outcome else {
             continue;
@@ -111,19 +112,18 @@ fn match_copies(document: &Document, shares: &mut [Share]) {
         let is_added = |edit: &&Edit| matches!(edit, Edit::Add(_) | Edit::AddReference(_));
         let count = outcome.edits.iter().filter(is_added).count();
         let added: Vec<CurveId> = ids.by_ref().take(count).collect();
-        if let (Some(by), Some(own), [copy]) = (outcome.copied, share.item, &added[..]) {
-            mirror = Some(by);
-            copies.push([own, *copy]);
+        if let (Some(by), Some(own)) = (&outcome.copied, share.item) {
+            copying = Some(by.clone());
+            rows.resize_with(rows.len().max(added.len()), Vec::new);
+            for (row, copy) in rows.iter_mut().zip(added) {
+                row.push([own, copy]);
+            }
         }
     }
-    let Some(mirror) = mirror else {
-        return;
-    };
-    let CopiedMatches { edits, remarks } = CopiedMatches::of(document, &mirror, &copies);
     let outcomes = shares.iter_mut().rev();
-    if let Some(last) = outcomes.filter_map(|it| it.outcome.as_mut().ok()).next() {
-        last.edits.extend(edits);
-        last.remarks.extend(remarks);
+    let last = outcomes.filter_map(|it| it.outcome.as_mut().ok()).next();
+    if let (Some(copying), Some(last)) = (copying, last) {
+        copied_matches::match_copies(last, document, &copying, &rows);
     }
 }
 

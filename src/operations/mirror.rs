@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::copied_matches::CopiedMatches;
+use super::copied_matches::{Copying, match_own_copies};
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::inputs::Inputs;
@@ -113,22 +113,15 @@ fn run(input: &Operands, values: &Values, _: &Progress) -> Result<Outcome, Opera
                 extras: Default::default(),
                 ..image
             };
-            outcome.copied = Some(mirror);
-            let mut edits = vec![Edit::Add(Box::new(copy))];
-            let copies = input.document().next_ids().next();
-            // Those of several copies follow one another.
-            if let Some(copy) = copies.filter(|_| !input.has_others()) {
-                let matches = CopiedMatches::of(input.document(), &mirror, &[[id, copy]]);
-                edits.extend(matches.edits);
-                outcome.remarks.extend(matches.remarks);
-            }
-            edits
+            outcome.copied = Some(Copying::Mirrored(mirror));
+            vec![Edit::Add(Box::new(copy))]
         }
         false => {
             check_free(input, id)?;
             in_place(input.document(), id, curve, image)
         }
     };
+    match_own_copies(&mut outcome, input)?;
     Ok(outcome)
 }
 

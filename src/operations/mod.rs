@@ -54,6 +54,7 @@ mod whole;
 
 pub use amount::Amount;
 pub use atlas::Atlas;
+pub use copied_matches::Copying;
 pub use each::Share;
 pub use error::OperationError;
 pub use feature_change::{changed_features, feature_change, feature_counts};

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::atlas::Atlas;
+use super::copied_matches::Copying;
 use super::error::OperationError;
 use super::handle::Handle;
 use super::locks;
@@ -15,7 +16,7 @@ use crate::document::{
 use crate::geometry::approximation::LevelComparison;
 use crate::geometry::fairing::requirement::{Check, Requirement};
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{Approximation, End, FloatPolygon, Mirror, Progress};
+use crate::geometry::{Approximation, End, FloatPolygon, Progress};
 
 /// Hold the outcome of an operation.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,8 +52,8 @@ pub struct Outcome {
     pub handles: Vec<Handle>,
     /// A plane of two parameters to choose from.
     pub atlas: Option<Atlas>,
-    /// The map by which an added curve is the image of the one that the operation works on.
-    pub copied: Option<Mirror>,
+    /// How the added curves are copies of the one that the operation works on.
+    pub copied: Option<Copying>,
 }
 
 /// How far a curve moves.

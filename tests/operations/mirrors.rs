@@ -3,7 +3,7 @@
 use batten::document::{Curve, CurveId, Document, Edit, EndMatch, MatchPlace};
 use batten::geometry::end_correction::EndTarget;
 use batten::geometry::{Continuity, End, FloatPolygon, Progress};
-use batten::operations::{Operands, Value};
+use batten::operations::{Operands, Outcome, Value};
 use glam::DVec3;
 
 use crate::common::Random;
@@ -268,4 +268,44 @@ fn copies_of_several_curves_follow_each_other() {
     assert_eq!(images.len(), 2);
     assert!(images.iter().all(|it| it.source == body_copy));
     assert!(all.matches().all(|it| all.meets(it)));
+}
+
+#[test]
+fn copies_of_an_array_follow_those_beside_them() {
+    let (document, [body, handle]) = body_with_handle();
+    let array = operation("array");
+    let both = Operands::new(&document, [handle]).expect("it is there");
+    let beside = Operands::new(&document, [body]).map(|it| vec![(body, Ok(it))]);
+    let both = both.with_beside(beside.expect("it is there"));
+    let given = [
+        ("count", Value::Whole(3)),
+        ("angle", Value::Real(0.5)),
+        ("step", Value::List(vec![30.0, -7.0])),
+    ];
+    let values = array.values(&both, given).expect("valid");
+    let shares = array.run_on_each(&both, &values, &Progress::default());
+    let outcomes: Vec<Outcome> = shares
+        .into_iter()
+        .map(|it| it.outcome.expect("it can run"))
+        .collect();
+    assert!(outcomes.iter().all(|it| it.remarks.is_empty()));
+    let edits = outcomes.into_iter().flat_map(|it| it.edits);
+    let all = document.edited(edits).expect("valid");
+    assert_eq!(all.matches().len(), 6);
+    assert!(all.matches().all(|it| all.meets(it)));
+    let mut ids = document.next_ids();
+    let [first, second, first_body, second_body] =
+        [(); 4].map(|()| ids.next().expect("an identity"));
+    for (handle, body) in [(first, first_body), (second, second_body)] {
+        let own: Vec<_> = all.matches().filter(|it| it.curve == handle).collect();
+        assert!(own.iter().all(|it| it.source == body) && own.len() == 2);
+    }
+    // Each copy is told once that it follows nothing.
+    let alone = Operands::new(&document, [handle]).expect("it is there");
+    let values = array.values(&alone, [("count", Value::Whole(4))]);
+    let outcome = array.run(&alone, &values.expect("valid"), &Progress::default());
+    let remarks = outcome.expect("it can run").remarks;
+    let told =
+        |end| format!("The {end} of the copy of “handle” is not matched: “body” is not copied");
+    assert_eq!(remarks, [told("start"), told("end")]);
 }
