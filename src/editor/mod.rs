@@ -35,7 +35,7 @@ pub use jobs::filing::{FileReply, Filing, is_project};
 pub use jobs::pyramid::{PictureLevel, PictureTile, Pyramid, TILE};
 pub use jobs::{Autosaver, FileWork, Recoverable, RecoverableDocument, Recovery, with_extension};
 pub use operating::{FittedPoints, Operating, OperationInProgress, OtherResult, Run};
-pub use reply::{Message, Note, Refusal, Reply, told};
+pub use reply::{Interrupted, Message, Note, Refusal, Reply, told};
 pub use report::{CurveReport, Readout, ReferenceReport};
 pub use selection::{Selection, VertexId};
 pub use view::{
@@ -293,7 +293,7 @@ impl Editor {
     /// [`Refusal`] if they cannot be made, or move vertices so that a feature is added while features are
     /// kept; nothing is changed then.
     pub fn apply(&mut self, label: &str, edits: Vec<Edit>) -> Reply {
-        let lost = self.interrupt_waiting();
+        let lost = self.interrupt().lost;
         let kept = self
             .hand
             .check_kept(&edits, &self.workspace, &self.view.analyses);
@@ -395,8 +395,8 @@ impl Editor {
     }
 
     /// End the preview because something else begins: the value of a number field is kept, a drag or an operation
-    /// is taken back. Returns whether anything was taken back.
-    pub fn interrupt(&mut self) -> bool {
+    /// is taken back.
+    pub fn interrupt(&mut self) -> Interrupted {
         let drags = self.hand.is_dragging();
         if drags {
             self.deliver(Gesture::Cancel, false);
@@ -404,23 +404,20 @@ impl Editor {
         self.hand.gestures.reset();
         if let Some(previewed) = self.previewed_operation() {
             let ended = previewed.ended();
+            let waits = previewed.is_waiting_to_apply();
             self.operating().interrupt();
-            self.message = Message::of(&Ok(ended));
-            return true;
+            self.message = Message::of(&Ok(ended.clone()));
+            return Interrupted {
+                takes_back: true,
+                lost: if waits { ended } else { Note::silent() },
+            };
         }
         let ended = self.workspace.interrupt();
         self.document_changed();
-        drags || ended == Some(Interruption::Aborts)
-    }
-
-    /// End the preview as [`Self::interrupt`] does. Returns what is told of an operation that waited to be applied.
-    fn interrupt_waiting(&mut self) -> Note {
-        let waiting = self.previewed_operation();
-        let lost = waiting
-            .filter(|it| it.is_waiting_to_apply())
-            .map(OperationInProgress::ended);
-        self.interrupt();
-        lost.unwrap_or_else(Note::silent)
+        Interrupted {
+            takes_back: drags || ended == Some(Interruption::Aborts),
+            lost: Note::silent(),
+        }
     }
 
     /// Put right what depends on the document after it has changed. What is selected is selected of

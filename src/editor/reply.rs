@@ -81,6 +81,15 @@ impl Note {
     }
 }
 
+/// What ended because something else began.
+#[derive(Debug)]
+pub struct Interrupted {
+    /// Whether a preview was taken back.
+    pub takes_back: bool,
+    /// What is told of an operation that waited to be applied; silent if none did.
+    pub lost: Note,
+}
+
 /// Add lines to a message, if there are any; without a text they are the message.
 pub(in crate::editor) fn with_lines(text: String, lines: &impl fmt::Display) -> String {
     format!("{text}\n{lines}").trim().to_owned()

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::error::OperationError;
 use super::operands::Operands;
-use super::outcome::Outcome;
+use super::outcome::{Copying, Outcome};
 use crate::document::{CurveId, Document, Edit, EndMatch, MatchPlace, quoted};
 use crate::geometry::{End, FloatPolygon, Mirror};
 
@@ -13,15 +13,6 @@ const ON_CURVE: f64 = 1e-9;
 
 /// Directions whose cosine is more than this are one, or opposite.
 const ALONG: f64 = 0.999_999;
-
-/// How copies are made of curves.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Copying {
-    /// Each curve has a mirror image.
-    Mirrored(Mirror),
-    /// Each curve has moved copies, which stand in a row with those of the others.
-    Moved,
-}
 
 /// Match the copies that an operation on one curve adds, behind the edits of its outcome; those of several curves are
 /// matched together.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::copied_matches;
+use super::copied_matches::match_copies;
 use super::error::OperationError;
 use super::operands::Operands;
 use super::operation::Operation;
@@ -57,7 +57,7 @@ impl Operation {
         }
         name_added(input.document(), &mut shares);
         if shares.len() > 1 {
-            match_copies(input.document(), &mut shares);
+            match_added(input.document(), &mut shares);
         }
         check_together(input.document(), &mut shares, progress);
         shares
@@ -101,7 +101,7 @@ fn name_added(document: &Document, shares: &mut [Share]) {
 
 /// Match the copies that several runs of one operation add, behind all of their edits. The first copies of all curves
 /// belong together, then the second, and so on.
-fn match_copies(document: &Document, shares: &mut [Share]) {
+fn match_added(document: &Document, shares: &mut [Share]) {
     let mut ids = document.next_ids();
     let mut rows: Vec<Vec<[CurveId; 2]>> = Vec::new();
     let mut copying = None;
@@ -123,7 +123,7 @@ fn match_copies(document: &Document, shares: &mut [Share]) {
     let outcomes = shares.iter_mut().rev();
     let last = outcomes.filter_map(|it| it.outcome.as_mut().ok()).next();
     if let (Some(copying), Some(last)) = (copying, last) {
-        copied_matches::match_copies(last, document, &copying, &rows);
+        match_copies(last, document, &copying, &rows);
     }
 }
 

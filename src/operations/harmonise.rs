@@ -415,7 +415,10 @@ fn steeper(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
     let now = variation(after).filter(|now| *now > STEEP)?;
     let times = now / variation(before)?;
     (times > MUCH_STEEPER).then(|| {
-        let times = significant(times, 2);
+        let times = match times < 1000.0 {
+            true => format!("{times:.0}"),
+            false => significant(times, 2),
+        };
         format!(
             "The curvature changes more steeply, its variation is {times} times as large: ask for more features"
         )

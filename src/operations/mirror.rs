@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use super::copied_matches::{Copying, match_own_copies};
+use super::copied_matches::match_own_copies;
 use super::editable::check_editable;
 use super::error::OperationError;
 use super::inputs::Inputs;
 use super::operands::Operands;
 use super::operation::Operation;
-use super::outcome::{Deviation, Outcome};
+use super::outcome::{Copying, Deviation, Outcome};
 use super::parameter::{Choice, Kind, Parameter};
 use super::values::Values;
 use crate::document::{Curve, CurveId, Document, Edit, EndTargets};

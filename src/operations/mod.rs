@@ -54,7 +54,6 @@ mod whole;
 
 pub use amount::Amount;
 pub use atlas::Atlas;
-pub use copied_matches::Copying;
 pub use each::Share;
 pub use error::OperationError;
 pub use feature_change::{changed_features, feature_change, feature_counts};
@@ -66,7 +65,7 @@ pub use lowering::{Lowered, lowered, told_of_lowered};
 pub use matched_curves::{followers, matched, newly_matched, told_of_bent};
 pub use operands::Operands;
 pub use operation::Operation;
-pub use outcome::{Annotation, Deviation, Figure, Outcome};
+pub use outcome::{Annotation, Copying, Deviation, Figure, Outcome};
 pub use parameter::{Choice, Kind, Parameter};
 pub use report::{LargestMove, Report};
 pub use targets::moved_with;

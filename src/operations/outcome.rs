@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use super::atlas::Atlas;
-use super::copied_matches::Copying;
 use super::error::OperationError;
 use super::handle::Handle;
 use super::locks;
@@ -16,7 +15,7 @@ use crate::document::{
 use crate::geometry::approximation::LevelComparison;
 use crate::geometry::fairing::requirement::{Check, Requirement};
 use crate::geometry::parameters::Quantity;
-use crate::geometry::{Approximation, End, FloatPolygon, Progress};
+use crate::geometry::{Approximation, End, FloatPolygon, Mirror, Progress};
 
 /// Hold the outcome of an operation.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -54,6 +53,15 @@ pub struct Outcome {
     pub atlas: Option<Atlas>,
     /// How the added curves are copies of the one that the operation works on.
     pub copied: Option<Copying>,
+}
+
+/// How copies are made of curves.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Copying {
+    /// Each curve has a mirror image.
+    Mirrored(Mirror),
+    /// Each curve has moved copies, which stand in a row with those of the others.
+    Moved,
 }
 
 /// How far a curve moves.

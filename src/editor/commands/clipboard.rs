@@ -77,7 +77,7 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if they cannot be removed; nothing is changed then.
     pub fn cut(&mut self) -> Result<String, Refusal> {
-        let lost = self.interrupt_waiting();
+        let lost = self.interrupt().lost;
         let copied = text_of(&self.hand.selection, self.document());
         let (selection, document) = (&self.hand.selection, self.document());
         let mut items = selection.items().into_iter();

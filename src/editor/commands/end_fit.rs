@@ -24,7 +24,7 @@ impl Editor {
     /// # Errors
     /// [`Refusal`] if it cannot be done; nothing is changed then.
     pub fn end_fit_action(&mut self, action: EndFitAction) -> Reply {
-        let lost = self.interrupt_waiting();
+        let lost = self.interrupt().lost;
         self.message = Message::of(&Ok(lost));
         let (id, curve) = self.active_curve().ok_or("There is no curve")?;
         if curve.polygon.is_periodic() {

@@ -46,7 +46,7 @@ impl Editor {
                 return Ok(Note::silent());
             }
             Command::Redo => {
-                let lost = self.interrupt_waiting();
+                let lost = self.interrupt().lost;
                 let redone = self.step(Workspace::redo);
                 let told = |it| Note::told(format!("Redone: {it}"));
                 lost.before(Ok(redone.map_or_else(Note::silent, told)))
@@ -56,7 +56,7 @@ impl Editor {
                 return Ok(Note::silent());
             }
             _ => {
-                let lost = self.interrupt_waiting();
+                let lost = self.interrupt().lost;
                 lost.before(self.execute_idle(command, shown))
             }
         };
@@ -83,7 +83,7 @@ impl Editor {
             return Note::silent();
         }
         let ended = self.previewed_operation().map(OperationInProgress::ended);
-        if self.interrupt() {
+        if self.interrupt().takes_back {
             return ended.unwrap_or_else(Note::silent);
         }
         // The preview of a field is taken back, and no step before it.

@@ -68,73 +68,73 @@ impl Editor {
         incoming: Incoming,
         assumed: Option<LengthUnit>,
     ) -> Reply {
-        let lost = self.interrupt_waiting();
-        lost.before(self.merge_idle(incoming, assumed))
+        let lost = self.interrupt().lost;
+        lost.before(merge_idle(self, incoming, assumed))
     }
+}
 
-    /// Merge documents once nothing is previewed.
-    fn merge_idle(&mut self, incoming: Incoming, assumed: Option<LengthUnit>) -> Reply {
-        let retakes = incoming.files.as_ref().and_then(|files| files.retakes);
-        let has_retaken =
-            retakes == Some(self.workspace.revision()) && incoming.purpose == Purpose::Import;
-        if has_retaken {
-            // The same files come in anew.
-            self.workspace.undo();
-            self.document_changed();
+/// Merge documents once nothing is previewed.
+fn merge_idle(editor: &mut Editor, incoming: Incoming, assumed: Option<LengthUnit>) -> Reply {
+    let retakes = incoming.files.as_ref().and_then(|files| files.retakes);
+    let has_retaken =
+        retakes == Some(editor.workspace.revision()) && incoming.purpose == Purpose::Import;
+    if has_retaken {
+        // The same files come in anew.
+        editor.workspace.undo();
+        editor.document_changed();
+    }
+    let receiving = match incoming.purpose {
+        Purpose::Open | Purpose::Edit => Document::default(),
+        Purpose::Import | Purpose::Paste => editor.document().clone(),
+    };
+    let merged = match merged(receiving, &incoming, assumed) {
+        Err(MergeError::NoUnit { incoming: unit }) => {
+            editor.filing.question = Some(UnitQuestion {
+                incoming: unit,
+                waiting: incoming,
+                has_retaken,
+            });
+            return Ok(Note::silent());
         }
-        let receiving = match incoming.purpose {
-            Purpose::Open | Purpose::Edit => Document::default(),
-            Purpose::Import | Purpose::Paste => self.document().clone(),
-        };
-        let merged = match merged(receiving, &incoming, assumed) {
-            Err(MergeError::NoUnit { incoming: unit }) => {
-                self.filing.question = Some(UnitQuestion {
-                    incoming: unit,
-                    waiting: incoming,
-                    has_retaken,
-                });
-                return Ok(Note::silent());
-            }
-            merged => merged.map_err(|error| Refusal(error.to_string()))?,
-        };
-        let documents = incoming.documents.iter().map(|read| &read.document);
-        let counted = counted_content(documents);
-        let lines = merged.lines.join("\n");
-        match incoming.purpose {
-            Purpose::Open | Purpose::Edit => {
-                self.replace(merged.document, None);
-                let files = incoming.documents.len();
-                let text = format!("{counted} read from {files} files");
-                let note = Note::told(with_lines(text, &lines));
-                Ok(self
-                    .filing
-                    .note_imported(incoming.files, note, &self.workspace))
-            }
-            Purpose::Import => {
-                self.add("Import curves", merged.edits)?;
-                self.look(Look::All);
-                let note = Note::done(with_lines(
-                    format!("{counted} added to the document"),
-                    &lines,
-                ));
-                Ok(self
-                    .filing
-                    .note_imported(incoming.files, note, &self.workspace))
-            }
-            Purpose::Paste => {
-                // Matches are not pasted.
-                let (mut curves, mut references, mut others) = (Vec::new(), Vec::new(), Vec::new());
-                for edit in merged.edits {
-                    match edit {
-                        Edit::Add(curve) => curves.push(*curve),
-                        Edit::AddReference(reference) => references.push(*reference),
-                        Edit::SetMatch(_) => {}
-                        other => others.push(other),
-                    }
+        merged => merged.map_err(|error| Refusal(error.to_string()))?,
+    };
+    let documents = incoming.documents.iter().map(|read| &read.document);
+    let counted = counted_content(documents);
+    let lines = merged.lines.join("\n");
+    match incoming.purpose {
+        Purpose::Open | Purpose::Edit => {
+            editor.replace(merged.document, None);
+            let files = incoming.documents.len();
+            let text = format!("{counted} read from {files} files");
+            let note = Note::told(with_lines(text, &lines));
+            Ok(editor
+                .filing
+                .note_imported(incoming.files, note, &editor.workspace))
+        }
+        Purpose::Import => {
+            editor.add("Import curves", merged.edits)?;
+            editor.look(Look::All);
+            let note = Note::done(with_lines(
+                format!("{counted} added to the document"),
+                &lines,
+            ));
+            Ok(editor
+                .filing
+                .note_imported(incoming.files, note, &editor.workspace))
+        }
+        Purpose::Paste => {
+            // Matches are not pasted.
+            let (mut curves, mut references, mut others) = (Vec::new(), Vec::new(), Vec::new());
+            for edit in merged.edits {
+                match edit {
+                    Edit::Add(curve) => curves.push(*curve),
+                    Edit::AddReference(reference) => references.push(*reference),
+                    Edit::SetMatch(_) => {}
+                    other => others.push(other),
                 }
-                self.add_copies("Paste", curves, references, others)?;
-                Ok(Note::done(with_lines(format!("{counted} pasted"), &lines)))
             }
+            editor.add_copies("Paste", curves, references, others)?;
+            Ok(Note::done(with_lines(format!("{counted} pasted"), &lines)))
         }
     }
 }

@@ -45,7 +45,7 @@ impl Editor {
             return self.apply_operation(operation, &[]);
         }
         self.message = None;
-        let lost = self.interrupt_waiting();
+        let lost = self.interrupt().lost;
         let input = self.input_of(operation);
         let begun = self.operating().preview(operation, input, &[], None);
         self.tell(lost.before(begun.map(|()| Note::silent())))
@@ -61,7 +61,7 @@ impl Editor {
         operation: &'static Operation,
         given: &[(&str, Value)],
     ) -> Reply {
-        let lost = self.interrupt_waiting();
+        let lost = self.interrupt().lost;
         let input = self.input_of(operation);
         let reply = self
             .operating()

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 use std::rc::Rc;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, ensure};
@@ -107,7 +108,7 @@ fn quit() -> Vec<egui::Event> {
     vec![event(true), event(false)]
 }
 
-fn curve_in(bytes: &[u8]) -> Result<Curve> {
+fn curve_in(bytes: &[u8]) -> Result<Arc<Curve>> {
     let format = batten::io::formats::find("step").context("STEP is known")?;
     let curves = format.read(bytes)?.curves;
     curves.into_iter().next().context("a curve")

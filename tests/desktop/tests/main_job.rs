@@ -2,6 +2,7 @@
 //! export; the files are checked in numbers.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::{Context, Result, ensure};
 use batten::document::Curve;
@@ -158,7 +159,7 @@ fn saving_with_the_button_held_writes_the_state_before_the_drag() -> Result<()> 
     window.hold(from, from + vec2(30.0, 30.0))?;
     window.key(Key::S, Modifiers::COMMAND)?;
     window.find_beginning("Saved to")?;
-    let read = || -> Result<Curve> {
+    let read = || -> Result<Arc<Curve>> {
         let curves = disk::read_file(&path)?.curves;
         curves.into_iter().next().context("the file has no curve")
     };
@@ -178,7 +179,7 @@ fn saving_with_the_button_held_writes_the_state_before_the_drag() -> Result<()> 
 }
 
 /// Save under a new name and read the curve back.
-fn saved(window: &mut Window, name: &str) -> Result<Curve> {
+fn saved(window: &mut Window, name: &str) -> Result<Arc<Curve>> {
     let path = window.folder().join(format!("{name}.batten"));
     window.key(Key::S, Modifiers::COMMAND | Modifiers::SHIFT)?;
     answer_prompt(window, &path)?;
