@@ -109,7 +109,8 @@ impl Decimals {
 
 /// Whether a text is a finite number, with either decimal mark.
 pub(super) fn is_number(text: &str) -> bool {
-    Decimals::default().number(text, "x", 0).is_ok()
+    let has_digits = text.bytes().any(|byte| byte.is_ascii_digit());
+    has_digits && Decimals::default().number(text, "x", 0).is_ok()
 }
 
 /// Take a number with a unit behind it, such as `12.3 mm`, apart.

@@ -230,7 +230,7 @@ fn home_of(path: &Path) -> PathBuf {
 }
 
 /// The path without steps back.
-fn normal(path: &Path) -> PathBuf {
+pub fn normal(path: &Path) -> PathBuf {
     let mut normal = PathBuf::new();
     for part in path.components() {
         match part {

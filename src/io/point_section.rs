@@ -114,6 +114,11 @@ impl<'a> PointSection<'a> {
 }
 
 impl Content {
+    /// Whether there are numbers, with a unit behind them or without.
+    pub(super) fn has_numbers(&self) -> bool {
+        self.numbers > 0 || self.unit.is_some()
+    }
+
     /// Take the field of the next row.
     fn take(&mut self, text: &str, is_first: bool) {
         self.numbers += usize::from(is_number(text));

@@ -38,6 +38,10 @@ pub static POINT_TABLE: Format = Format {
 /// # Errors
 /// [`WriteError::NoPoints`].
 fn write(document: &Document, _: &Writing, losses: &mut LossReport) -> Result<Vec<u8>, WriteError> {
+    // Rows of a file have one number of columns.
+    let mut all = document.references().filter_map(|(_, it)| it.points());
+    let planar = all.all(|points| points.iter().all(|it| it.z == 0.0));
+    let columns = if planar { 2 } else { 3 };
     let mut lists = Vec::new();
     for (_, curve) in document.curves() {
         losses.add_curve(curve);
@@ -45,7 +49,7 @@ fn write(document: &Document, _: &Writing, losses: &mut LossReport) -> Result<Ve
     for (_, reference) in document.references() {
         match reference.points() {
             Some(points) => {
-                lists.push(list(reference, &points));
+                lists.push(list(reference, &points, columns));
                 losses.add_point_weights(reference);
             }
             None => losses.add_reference(reference),
@@ -59,12 +63,7 @@ fn write(document: &Document, _: &Writing, losses: &mut LossReport) -> Result<Ve
     Ok((unit + &lists.join("\n")).into_bytes())
 }
 
-fn list(reference: &Reference, points: &[DVec3]) -> String {
-    let columns = if points.iter().all(|it| it.z == 0.0) {
-        2
-    } else {
-        3
-    };
+fn list(reference: &Reference, points: &[DVec3], columns: usize) -> String {
     let texts: Vec<[String; 3]> = points
         .iter()
         .map(|point| point.to_array().map(|value| format!("{value:?}")))

@@ -70,6 +70,13 @@ pub enum Remark {
     Latin1,
     /// Lines of a table of points that hold none.
     Skipped(Vec<usize>),
+    /// A line of a table that begins as a row, and is taken for the title of the rows below it.
+    Title {
+        /// The line.
+        line: usize,
+        /// The title.
+        title: String,
+    },
     /// Lines of a table of points that repeat the point before.
     Repeated(Vec<usize>),
     /// Numbers of a table that are too small for a double, the first of them and all lines.
@@ -455,6 +462,11 @@ impl fmt::Display for Remark {
                 formatter,
                 "{} skipped (no point)",
                 lines_told(lines, "was", "were")
+            ),
+            Self::Title { line, title } => write!(
+                formatter,
+                "line {line} is taken for the title {}, though it begins with numbers",
+                quoted(title)
             ),
             Self::Repeated(lines) => write!(
                 formatter,

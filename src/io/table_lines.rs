@@ -105,7 +105,8 @@ impl<'a> Fields<'a> {
     /// Whether they can be a row of numbers: at least two, and no field that is two numbers.
     fn are_split(&self) -> bool {
         let is_unsplit = |value: &Cow<str>| {
-            let mut words = value.split(|mark: char| mark.is_whitespace() || mark == ';');
+            let words = value.split(|mark: char| mark.is_whitespace() || mark == ';');
+            let mut words = words.filter(|word| !word.is_empty());
             words.clone().count() > 1 && words.all(is_number) && !is_number(value)
         };
         self.have_numbers(2) && !self.values.iter().any(is_unsplit)
@@ -142,14 +143,26 @@ fn unquoted<'a>(line: &'a str, separator: char) -> Vec<Cow<'a, str>> {
     }
 }
 
-/// The inside of a point in brackets, such as `(1.0, 2.0)` or `[1.0, 2.0],`; any other line as it is.
+/// The inside of a point in brackets, such as `(1.0, 2.0)`, `[1.0, 2.0],` or `Point(3) = {1, 2, 0};`; any other line as
+/// it is.
 fn unbracketed(line: &str) -> &str {
     let (opening, closing) = (['(', '[', '{'], [')', ']', '}']);
     let point = line.trim().trim_end_matches([',', ';', ' ', '\t']);
-    if !point.starts_with(opening) || !point.ends_with(closing) {
+    let inside = point.strip_suffix(closing).and_then(|it| {
+        let (before, _) = it
+            .char_indices()
+            .rfind(|(_, mark)| opening.contains(mark))?;
+        it.split_at_checked(before)
+    });
+    let Some((name, inside)) = inside else {
+        return line;
+    };
+    let name = name.trim_matches(opening).trim();
+    let is_word = name.chars().all(char::is_alphanumeric) && !is_number(name);
+    if !is_word && !name.ends_with(['=', ':']) {
         return line;
     }
-    let inside = point.trim_start_matches(opening).trim_end_matches(closing);
+    let inside = inside.trim_matches(|mark| opening.contains(&mark) || closing.contains(&mark));
     let words = inside.split([',', ';', ' ', '\t']);
     let mut words = words.filter(|word| !word.is_empty());
     match words.clone().count() >= 2 && words.all(is_number) {
@@ -158,12 +171,34 @@ fn unbracketed(line: &str) -> &str {
     }
 }
 
+/// What a line says in the files of Tecplot: the names of the columns, or that a zone begins.
+fn of_tecplot(line: &str) -> Option<LineContent<'_>> {
+    let behind = |word: &str| {
+        let (first, rest) = line.trim_start().split_at_checked(word.len())?;
+        first.eq_ignore_ascii_case(word).then_some(rest.trim())
+    };
+    if let Some(rest) = behind("zone") {
+        return (rest.is_empty() || rest.contains('=')).then_some(LineContent::Blank);
+    }
+    let names = behind("variables")?.strip_prefix('=')?;
+    let values: Vec<Cow<str>> = match names.contains('"') {
+        true => names.split('"').skip(1).step_by(2).map(trimmed).collect(),
+        false => {
+            let words = names.split([',', ' ', '\t']);
+            words.filter(|word| !word.is_empty()).map(trimmed).collect()
+        }
+    };
+    let width = values.len();
+    Some(LineContent::Fields(Fields { values, width }))
+}
+
 /// Find what stands between the fields: the separator that splits most rows into numbers. Where there
 /// are none, the first line of text tells it.
 pub(super) fn separator(text: &str) -> char {
     let lines = || text.lines().filter(|line| !is_commented(line));
     let mut counts = [0; SEPARATORS.len()];
-    for line in lines().map(unbracketed) {
+    let has_digits = |line: &&str| line.bytes().any(|byte| byte.is_ascii_digit());
+    for line in lines().filter(has_digits).map(unbracketed) {
         for (count, separator) in counts.iter_mut().zip(SEPARATORS) {
             *count += usize::from(Fields::of(line, separator).are_split());
         }
@@ -244,6 +279,9 @@ fn content(line: &str, separator: char) -> LineContent<'_> {
             true => LineContent::Header(header(line, separator)),
         };
     }
+    if let Some(content) = of_tecplot(line) {
+        return content;
+    }
     let fields = Fields::of(unbracketed(line), separator);
     match fields.values.is_empty() {
         true => LineContent::Blank,
@@ -296,6 +334,7 @@ mod tests {
             ("(1, 2)\n(3, 4)\n", ','),
             ("[1,5; 2,5],\n[3; 4]\n", ';'),
             ("(a) 1 2\n(b) 3 4\n", ' '),
+            ("1,25  2,5\n3,5   4,5\n", ' '),
             ("1.5 mm, 2 mm\n2.5 mm, 3 mm\n", ','),
         ] {
             assert_eq!(separator(text), expected, "{text:?}");

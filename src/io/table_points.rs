@@ -76,6 +76,8 @@ struct Layout {
     count: usize,
     /// How many rows these are.
     rows: usize,
+    /// The number of columns up to the last with numbers.
+    numeric: usize,
     /// The number of column names, if there are more.
     named: usize,
     /// The line with the names.
@@ -299,6 +301,10 @@ impl<'a> PointReader<'a> {
         Ok(Some(Layout {
             count,
             rows: usual.rows,
+            numeric: contents
+                .iter()
+                .rposition(|content| content.has_numbers())
+                .map_or(0, |last| last + 1),
             named: names.as_ref().map_or(0, |(_, names)| names.count()),
             names: names.map(|(line, _)| line),
             coordinates,
@@ -439,7 +445,21 @@ impl<'a> PointReader<'a> {
                 continue;
             };
             match layout.found(line.number, &fields, decimals) {
-                Ok(Found::Row(row)) => blocks.rows.push(row),
+                Ok(Found::Row(row)) => match title(line.text) {
+                    Some(title)
+                        if layout.has_text_behind(&fields)
+                            && layout.names.is_none()
+                            && !blocks.is_open()
+                            && title_above.is_none() =>
+                    {
+                        self.remarks.add(Remark::Title {
+                            line: line.number,
+                            title: title.clone(),
+                        });
+                        title_above = Some((line.number, title));
+                    }
+                    _ => blocks.rows.push(row),
+                },
                 Ok(Found::TooLarge(text)) => {
                     let (_, lines) = self.too_large.get_or_insert((text, Vec::new()));
                     lines.push(line.number);
@@ -589,6 +609,12 @@ impl<'a> PointReader<'a> {
 }
 
 impl Layout {
+    /// Whether a line has more fields than the rows, the next of which is no number.
+    fn has_text_behind(&self, fields: &Fields) -> bool {
+        let most = self.count.max(self.named);
+        fields.values.get(most).is_some_and(|text| !is_number(text))
+    }
+
     /// Tell whether a line is a row.
     ///
     /// # Errors
@@ -602,7 +628,12 @@ impl Layout {
         let most = self.count.max(self.named);
         let length = fields.values.len();
         let is_padded = length < most && fields.width >= most;
-        if ![self.count, self.named].contains(&length) && !is_padded {
+        let lacks_text = (self.numeric..self.count).contains(&length);
+        if ![self.count, self.named].contains(&length)
+            && !is_padded
+            && !lacks_text
+            && !self.has_text_behind(fields)
+        {
             return Ok(Found::Text);
         }
         let text = |place: &usize| fields.values.get(*place).map_or("", |text| text.as_ref());

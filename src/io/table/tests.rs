@@ -795,3 +795,47 @@ fn tables_without_bounds_are_refused_with_their_line() {
     let many = "0 0\n1 1\n\n".repeat(150_001);
     assert!(told(&many).starts_with("line 450003: the file has more than 150000 lists of points"));
 }
+
+#[test]
+fn text_behind_rows_takes_no_points() {
+    let plain: &[[f64; 2]] = &[[1.0, 2.0], [3.0, 4.0], [5.0, 9.0]];
+    let below: &[[f64; 2]] = &plain[1..];
+    let taken = "line 1 is taken for the title “1 2 start”, though it begins with numbers";
+    check_lists("1 2 start\n3 4\n5 9\n", &[("1 2 start", below)], taken);
+    for text in [
+        "x,y\n1,2,start\n3,4\n5,9\n",
+        "# x y\n1 2 start\n3 4 # end\n5 9\n",
+    ] {
+        check_lists(text, &[("points 1", plain)], "");
+    }
+    // A title is above, or others have labels.
+    check_lists("FOIL\n1 2 TE\n3 4\n5 9\n", &[("FOIL", plain)], "");
+    check_lists("x y label\n1 2 a\n3 4 b\n5 9\n", &[("points 1", plain)], "");
+}
+
+#[test]
+fn points_of_meshes_and_solvers_are_read_by_their_names() {
+    let points: &[[f64; 2]] = &[[0.0, 0.5], [1.0, 1.0], [2.0, 4.0]];
+    for text in [
+        "Point(1) = {0, 0.5, 0};\nPoint(2) = {1, 1, 0};\nPoint(3) = {2, 4, 0};\n",
+        "VARIABLES = \"Y\" \"X\"\n0.5 0\n1 1\n4 2\n",
+        "variables = cp, x, y\nZONE I=3\n9 0 0.5\n8 1 1\n7 2 4\n",
+    ] {
+        check_lists(text, &[("points 1", points)], "");
+    }
+    // The fourth number is no coordinate, or x would be none.
+    let text = "Point(1) = {0, 0, 0, 1};\nPoint(2) = {1, 1, 0, 1};\n";
+    assert!(read(text.as_bytes()).is_err(), "which columns are x and y?");
+}
+
+#[test]
+fn decimal_commas_may_stand_between_runs_of_blanks() {
+    let points: &[[f64; 2]] = &[[1.25, 2.5], [2.5, 3.75], [3.5, 4.5]];
+    for text in [
+        "1,25  2,5\n2,5  3,75\n3,5  4,5\n",
+        "   1,25    2,5\n   2,5    3,75\n   3,5     4,5\n",
+    ] {
+        let reading = read(text.as_bytes()).unwrap();
+        assert_eq!(points_of(text.as_bytes()), points, "{:?}", reading.remarks);
+    }
+}
