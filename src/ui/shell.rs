@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::judging::Judging;
 use crate::editor::{CurvatureDisplay, Layer, Layers};
-use crate::io::ExportChoice;
+use crate::io::{ExportChoice, disk};
 
 /// The parts of the window beside the document; the settings keep them from run to run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -127,7 +127,8 @@ fn kept<'k, T>(all: &'k [(PathBuf, T)], path: &Path) -> Option<&'k T> {
 
 /// The path of a document that does not depend on the folder in which the program was started.
 fn wherever(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    disk::normal(&absolute)
 }
 
 /// Keep something of a document in front of the others.
@@ -150,6 +151,8 @@ mod tests {
         let folder = std::env::current_dir().expect("a folder");
         let path = folder.join("job.batten");
         assert_eq!(shell.judging_of(&path), Some(&judging));
+        let around = Path::new("elsewhere/../job.batten");
+        assert_eq!(shell.judging_of(around), Some(&judging));
         assert_eq!(shell.judging_of(Path::new("/elsewhere/job.batten")), None);
         shell.keep_judging(&path, judging);
         assert_eq!(shell.judgings.len(), 1);
