@@ -166,6 +166,46 @@ fn apply_during_a_run_waits_and_says_so_and_can_be_cancelled() {
         script.command(Command::Tool(ToolKind::Select));
     }
 
+    // The reply of an operation that is applied at once comes later, and tells it too.
+    begin(&mut script.editor);
+    script.command(Command::Operation(operation("reverse")));
+    while script
+        .editor
+        .operation()
+        .is_some_and(OperationInProgress::is_pending)
+    {
+        woken.recv_timeout(LONG).expect("the frame is woken");
+        script.editor.begin_frame();
+    }
+    let message = script.message();
+    assert!(
+        message.starts_with(&dropped) && message.contains("Reverse"),
+        "{message}"
+    );
+    script.command(Command::Undo);
+
+    // To take back a value takes back that it is applied.
+    let begun = script.editor.preview_operation(operation("elevate-degree"));
+    begun.expect("a preview");
+    let set = script
+        .editor
+        .operating()
+        .set_values(&[("degree", Value::Whole(5))]);
+    set.expect("a degree");
+    script
+        .editor
+        .operating()
+        .apply()
+        .expect("nothing is refused");
+    script.command(Command::Undo);
+    assert!(!waits(&script.editor));
+    let changed = format!(
+        "{}: not applied, its values have changed",
+        operation("elevate-degree").label
+    );
+    assert_eq!(script.message(), changed);
+    script.key(Key::Escape);
+
     begin(&mut script.editor);
     // The result of other values is to be seen first.
     let other = [("degree", Value::Whole(6))];

@@ -57,7 +57,9 @@ impl Editor {
             }
             _ => {
                 let lost = self.interrupt().lost;
-                lost.before(self.execute_idle(command, shown))
+                let reply = self.execute_idle(command, shown);
+                self.operating().tell_first(lost.clone());
+                lost.before(reply)
             }
         };
         self.tell(reply)
@@ -79,8 +81,9 @@ impl Editor {
     fn undo(&mut self) -> Note {
         let in_field = self.workspace.interruption() == Some(Interruption::Commits);
         let steps = self.workspace.history().undo_steps();
+        let changed = self.previewed_operation().map(OperationInProgress::changed);
         if self.operating().undo_values() {
-            return Note::silent();
+            return changed.unwrap_or_else(Note::silent);
         }
         let ended = self.previewed_operation().map(OperationInProgress::ended);
         if self.interrupt().takes_back {

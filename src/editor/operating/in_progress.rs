@@ -52,6 +52,8 @@ pub struct OperationInProgress {
     pub(super) earlier: Vec<Values>,
     /// Whether the operation is applied as soon as its run is finished.
     pub(super) applies: bool,
+    /// What is told first: an operation before it was not applied.
+    pub(super) lost: Note,
     /// The action of the end-fit panel that started the operation.
     pub(super) end_fit: Option<EndFitStep>,
 }
@@ -151,6 +153,15 @@ impl OperationInProgress {
         match self.is_waiting_to_apply() {
             true => Note::told(format!("{label}: not applied, it was not ready")).warning(),
             false => Note::told(format!("{label}: cancelled")),
+        }
+    }
+
+    /// What is told when its values change before it is applied.
+    pub(in crate::editor) fn changed(&self) -> Note {
+        let label = self.operation.label;
+        match self.is_waiting_to_apply() {
+            true => Note::told(format!("{label}: not applied, its values have changed")).warning(),
+            false => Note::silent(),
         }
     }
 

@@ -121,6 +121,13 @@ impl Operating<'_> {
         reply
     }
 
+    /// Tell of an operation that was not applied before the reply of the one that runs now.
+    pub(in crate::editor) fn tell_first(&mut self, lost: Note) {
+        if let Some(current) = self.current_mut().filter(|it| it.pending) {
+            current.lost = lost;
+        }
+    }
+
     /// Apply the operation that is previewed, now or once its run is finished. The reply is told.
     ///
     /// # Errors
@@ -378,6 +385,7 @@ impl Operating<'_> {
             held: None,
             earlier: Vec::new(),
             applies: false,
+            lost: Note::silent(),
             end_fit,
         });
         self.request_run();
@@ -392,9 +400,13 @@ impl Operating<'_> {
         let Some(current) = operation else {
             return;
         };
+        // What was to be applied was the result of other values.
+        let changed = current.changed();
+        if changed.warns {
+            *self.message = Message::of(&Ok(changed));
+        }
         current.pending = true;
         current.stops = false;
-        // What was to be applied was the result of other values.
         current.applies = false;
         current.update_points();
         let operation = current.operation;
@@ -586,7 +598,9 @@ impl Operating<'_> {
 
     /// The reply that tells of the last run.
     fn reply(&self) -> Reply {
-        match self.operations.operation.as_ref().and_then(|it| it.run()) {
+        let current = self.operations.operation.as_ref();
+        let lost = current.map_or_else(Note::silent, |it| it.lost.clone());
+        lost.before(match current.and_then(|it| it.run()) {
             Some(Ok(run)) if run.succeeds() => Ok(Note {
                 warns: run.warns(),
                 offers_undo: self.has_made_step(),
@@ -598,7 +612,7 @@ impl Operating<'_> {
             Some(Ok(run)) => Err(Refusal(run.report.summary())),
             Some(Err(error)) => Err(Refusal(error.to_string())),
             None => Ok(Note::silent()),
-        }
+        })
     }
 
     /// Whether the operation that was applied last changed something: else Undo would take back the step before.
