@@ -91,9 +91,9 @@ impl Editor {
         copied
     }
 
-    /// Add copies a little aside, named anew, they and their vertices unlocked, and not matched. What their file said of the curves
-    /// that Batten does not know, such as a number of their own, is not copied. The step begins with other edits. The
-    /// copies are selected.
+    /// Add copies, a little aside where they would cover what they are copies of, named anew, they and their vertices
+    /// unlocked, and not matched. What their file said of the curves that Batten does not know, such as a number of
+    /// their own, is not copied. The step begins with other edits. The copies are selected.
     pub(in crate::editor) fn add_copies(
         &mut self,
         label: &str,
@@ -101,7 +101,9 @@ impl Editor {
         references: Vec<Reference>,
         mut edits: Vec<Edit>,
     ) -> Reply {
-        let offset = OFFSET * self.view.pane.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
+        let step = OFFSET * self.view.pane.viewport.pixel() * DVec3::new(1.0, -1.0, 0.0);
+        let covers = covers(self.document(), curves.first(), references.first());
+        let offset = if covers { step } else { DVec3::ZERO };
         let mut names: Vec<String> = self.document().names().map(str::to_owned).collect();
         let mut free = |name: &str| {
             let name = free_name(name, |name| names.iter().any(|taken| taken == name));
@@ -149,6 +151,21 @@ impl Editor {
         self.hand.selection.set_items(added);
         Ok(reply)
     }
+}
+
+/// Whether the first copies have the shape and the place of something in the document.
+fn covers(document: &Document, curve: Option<&Curve>, reference: Option<&Reference>) -> bool {
+    let is_curve = |copy: &Curve| {
+        document
+            .curves()
+            .any(|(_, own)| own.polygon == copy.polygon)
+    };
+    let is_reference = |copy: &Reference| {
+        document
+            .references()
+            .any(|(_, own)| own.curve == copy.curve)
+    };
+    curve.is_some_and(is_curve) || reference.is_some_and(is_reference)
 }
 
 /// The form of a copy.
