@@ -8,6 +8,7 @@ use super::reading::{Reading, Remark};
 use super::table_points::{PointReader, Row};
 use super::tangent_plane::position;
 use super::xml::Source;
+use crate::geometry::counted;
 use crate::geometry::expressions::LengthUnit;
 
 /// The row of the table of formats.
@@ -45,14 +46,14 @@ fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
     if root.tag_name().name() != "gpx" {
         return Err(Problem::NotGpx(root.tag_name().name().to_owned()).into());
     }
-    let mut paths = Vec::new();
+    let (mut paths, mut bad) = (Vec::new(), Vec::new());
     for path in root.children() {
         let name = name(path);
         match path.tag_name().name() {
-            "rte" => paths.push(Path::of(path, name, "rtept", &source)?),
+            "rte" => paths.push(Path::of(path, name, "rtept", &source, &mut bad)),
             "trk" => {
                 for segment in named(path, "trkseg") {
-                    paths.push(Path::of(segment, name, "trkpt", &source)?);
+                    paths.push(Path::of(segment, name, "trkpt", &source, &mut bad));
                 }
             }
             _ => {}
@@ -70,6 +71,19 @@ fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
         reading.remarks.add(Remark::Drawn(told.clone()));
     }
     points.finish(&mut reading)?;
+    for error in &bad {
+        let told = format!("{error}: it is left out");
+        reading.remarks.add(Remark::Drawn(told));
+    }
+    let places = named(root, "wpt").count();
+    if places > 0 {
+        let places = counted(places, "waypoint", "waypoints");
+        let told = format!("{places} left out: only tracks and routes are read");
+        reading.remarks.add(Remark::Drawn(told));
+    }
+    if let (true, Some(first)) = (reading.is_empty(), bad.into_iter().next()) {
+        return Err(first);
+    }
     match (reading.is_empty(), source.remarks.first()) {
         (false, _) => Ok(reading),
         (true, Some(damage)) => Err(Problem::Drawing(damage.clone()).into()),
@@ -78,20 +92,21 @@ fn read(bytes: &[u8]) -> Result<Reading, ReadError> {
 }
 
 impl Path {
-    /// Take the points of a track's segment or of a route.
+    /// Take the points of a track's segment or of a route, but those that are bad.
     fn of(
         path: Node,
         name: Option<&str>,
         points: &str,
         source: &Source,
-    ) -> Result<Self, ReadError> {
-        Ok(Self {
+        bad: &mut Vec<ReadError>,
+    ) -> Self {
+        let rows = named(path, points).map(|point| row(point, source));
+        let rows = rows.filter_map(|row| row.map_err(|error| bad.push(error)).ok());
+        Self {
             line: source.line_of(path) as usize,
             name: name.map(str::to_owned),
-            rows: named(path, points)
-                .map(|point| row(point, source))
-                .collect::<Result<_, _>>()?,
-        })
+            rows: rows.collect(),
+        }
     }
 }
 
@@ -181,6 +196,12 @@ mod tests {
         );
         assert!(told.contains("lines 8 and 12 were left out"), "{told}");
         assert!(told.contains("line 11 was skipped"), "{told}");
+        assert!(told.contains("1 waypoint left out"), "{told}");
+        let bad = TRACK.replacen("54.01", "north", 1);
+        let reading = GPX.read(bad.as_bytes()).unwrap();
+        assert_eq!(reading.references[0].points().unwrap().len(), 2);
+        let told = reading.remarks.to_string();
+        assert!(told.contains("line 9: a point needs a latitude"), "{told}");
     }
 
     #[test]
