@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::fmt;
 
 use crate::document::{Curve, Document, Group, Reference, first_quoted, quoted};
+use crate::geometry::references::ReferenceForm;
 use crate::geometry::{End, PolygonKind, counted, rounded_up};
 
 /// A curve that moves by less than this share of its size has lost nothing that anybody could see or measure. Curves
@@ -93,6 +94,8 @@ pub enum Loss {
     Picture,
     /// How much each point of a reference counts.
     PointWeights,
+    /// That no lines join the points of a reference.
+    Apart,
     /// A curve as a whole.
     Curve,
     /// A curve or a reference as a whole, because of its shape.
@@ -335,6 +338,31 @@ impl LossReport {
         }
     }
 
+    /// Add that a curve or a reference is hidden or locked.
+    pub fn add_state(&mut self, name: &str, visible: bool, locked: bool) {
+        let states = [(!visible, Loss::Hidden), (locked, Loss::Locked)];
+        let lost = states.into_iter().filter(|(is_lost, _)| *is_lost);
+        let lost = lost.map(|(_, loss)| (name.to_owned(), loss));
+        self.losses.extend(lost);
+    }
+
+    /// Add what tables lose of a list of points.
+    pub fn add_list(&mut self, reference: &Reference) {
+        self.add_point_weights(reference);
+        let name = &reference.name;
+        let form = reference.curve.form();
+        let is_apart = matches!(form, ReferenceForm::Points(list) if list.is_apart());
+        let lost = [
+            (reference.colour.is_some(), Loss::Colour),
+            (is_apart, Loss::Apart),
+        ];
+        let lost = lost.into_iter().filter(|(is_lost, _)| *is_lost);
+        let lost = lost.map(|(_, loss)| (name.clone(), loss));
+        self.losses.extend(lost);
+        self.add_state(name, reference.visible, reference.locked);
+        self.add_group(name, &reference.group, Group::default());
+    }
+
     /// Add the matches of a document's curves, of those that are written: every format but Batten's own
     /// loses them.
     pub fn add_matches(&mut self, document: &Document, is_written: impl Fn(&Curve) -> bool) {
@@ -479,6 +507,9 @@ impl Loss {
             Self::Reference => lost("references aren't"),
             Self::Picture => lost("pictures aren't"),
             Self::PointWeights => lost("weights of points aren't"),
+            Self::Apart => {
+                format!("points that stand apart are joined by lines when the {format} is read")
+            }
             Self::Curve => lost("curves aren't"),
             // A curve of any degree is written as cubics.
             Self::LeftOut { what, is_curve } if !is_curve && what.contains("spline") => format!(

@@ -50,7 +50,7 @@ fn write(document: &Document, _: &Writing, losses: &mut LossReport) -> Result<Ve
         match reference.points() {
             Some(points) => {
                 lists.push(list(reference, &points, columns));
-                losses.add_point_weights(reference);
+                losses.add_list(reference);
             }
             None => losses.add_reference(reference),
         }

@@ -31,7 +31,7 @@ use glam::DVec3;
 use super::decimals::Decimals;
 use super::error::{Place, Problem, ReadError, WriteError};
 use super::format::{ExportRow, FileUnit, Format, Writing};
-use super::loss::{Loss, LossReport};
+use super::loss::LossReport;
 use super::point_section::{PointSection, commented_names};
 use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
@@ -324,15 +324,13 @@ fn write_separated(
         blocks.push(curve_block(curve, kind, losses, separator));
         losses.add_attributes(curve);
         losses.add_group(&curve.name, &curve.group, Group::default());
-        losses.add_if(!curve.visible, curve, Loss::Hidden);
-        losses.add_if(curve.locked, curve, Loss::Locked);
+        losses.add_state(&curve.name, curve.visible, curve.locked);
     }
     for (_, reference) in document.references() {
         match reference.points() {
             Some(points) => {
                 blocks.push(points_block(reference, &points, separator));
-                losses.add_point_weights(reference);
-                losses.add_group(&reference.name, &reference.group, Group::default());
+                losses.add_list(reference);
             }
             None => losses.add_reference(reference),
         }

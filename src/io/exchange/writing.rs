@@ -137,6 +137,7 @@ impl Item {
         report_group(&reference.name, &reference.group, manner.kept, &mut own);
         let is_coloured = reference.colour.is_some();
         manner.marks.report(&reference.name, is_coloured, &mut own);
+        own.add_state(&reference.name, reference.visible, reference.locked);
         let items = shapes.into_iter().filter_map(|shape| {
             let named = |shape: Shape| Self {
                 group: reference.group.names().to_vec(),
@@ -230,8 +231,7 @@ fn named(name: &str, kind: Kind, shape: Shape) -> Item {
 fn report(curve: &Curve, losses: &mut LossReport) {
     losses.add_attributes(curve);
     losses.losses.retain(|(_, loss)| *loss != Loss::Colour);
-    losses.add_if(!curve.visible, curve, Loss::Hidden);
-    losses.add_if(curve.locked, curve, Loss::Locked);
+    losses.add_state(&curve.name, curve.visible, curve.locked);
 }
 
 fn report_group(name: &str, group: &Group, kept: KeptGroup, losses: &mut LossReport) {

@@ -4,7 +4,7 @@ use super::*;
 use crate::document::Colour;
 use crate::geometry::FloatPolygon;
 use crate::geometry::references::{Placement, PointList, ReferenceCurve, ReferenceForm};
-use crate::io::loss::Export;
+use crate::io::loss::{Export, Loss};
 
 fn curve(name: &str, vertices: &[[f64; 3]], weights: Option<Vec<f64>>, periodic: bool) -> Curve {
     let vertices = vertices.iter().map(|vertex| DVec3::from_array(*vertex));
