@@ -412,6 +412,9 @@ fn steeper(before: &FloatPolygon, after: &FloatPolygon) -> Option<String> {
         let segments = SegmentFairness::all(polygon);
         Fairness::of(&segments, polygon.degree() - 1).variation
     };
+    if before == after {
+        return None;
+    }
     let now = variation(after).filter(|now| *now > STEEP)?;
     let times = now / variation(before)?;
     (times > MUCH_STEEPER).then(|| {
