@@ -340,8 +340,11 @@ impl LossReport {
 
     /// Add that a curve or a reference is hidden or locked.
     pub fn add_state(&mut self, name: &str, visible: bool, locked: bool) {
-        let states = [(!visible, Loss::Hidden), (locked, Loss::Locked)];
-        let lost = states.into_iter().filter(|(is_lost, _)| *is_lost);
+        self.add_where(name, [(!visible, Loss::Hidden), (locked, Loss::Locked)]);
+    }
+
+    fn add_where(&mut self, name: &str, losses: [(bool, Loss); 2]) {
+        let lost = losses.into_iter().filter(|(is_lost, _)| *is_lost);
         let lost = lost.map(|(_, loss)| (name.to_owned(), loss));
         self.losses.extend(lost);
     }
@@ -352,13 +355,8 @@ impl LossReport {
         let name = &reference.name;
         let form = reference.curve.form();
         let is_apart = matches!(form, ReferenceForm::Points(list) if list.is_apart());
-        let lost = [
-            (reference.colour.is_some(), Loss::Colour),
-            (is_apart, Loss::Apart),
-        ];
-        let lost = lost.into_iter().filter(|(is_lost, _)| *is_lost);
-        let lost = lost.map(|(_, loss)| (name.clone(), loss));
-        self.losses.extend(lost);
+        let is_coloured = reference.colour.is_some();
+        self.add_where(name, [(is_coloured, Loss::Colour), (is_apart, Loss::Apart)]);
         self.add_state(name, reference.visible, reference.locked);
         self.add_group(name, &reference.group, Group::default());
     }

@@ -444,22 +444,20 @@ impl<'a> PointReader<'a> {
                 }
                 continue;
             };
+            let is_first = !blocks.is_open() && title_above.is_none();
+            if is_first
+                && layout.may_be_title(&fields)
+                && let Some(title) = title(line.text)
+            {
+                self.remarks.add(Remark::Title {
+                    line: line.number,
+                    title: title.clone(),
+                });
+                title_above = Some((line.number, title));
+                continue;
+            }
             match layout.found(line.number, &fields, decimals) {
-                Ok(Found::Row(row)) => match title(line.text) {
-                    Some(title)
-                        if layout.has_text_behind(&fields)
-                            && layout.names.is_none()
-                            && !blocks.is_open()
-                            && title_above.is_none() =>
-                    {
-                        self.remarks.add(Remark::Title {
-                            line: line.number,
-                            title: title.clone(),
-                        });
-                        title_above = Some((line.number, title));
-                    }
-                    _ => blocks.rows.push(row),
-                },
+                Ok(Found::Row(row)) => blocks.rows.push(row),
                 Ok(Found::TooLarge(text)) => {
                     let (_, lines) = self.too_large.get_or_insert((text, Vec::new()));
                     lines.push(line.number);
@@ -467,7 +465,7 @@ impl<'a> PointReader<'a> {
                 Ok(Found::Text) if layout.names == Some(line.number) => {}
                 Ok(Found::Text) if fields.lack_a_number() => self.skipped.push(line.number),
                 Ok(Found::Text) => match title(line.text) {
-                    Some(title) if !blocks.is_open() && title_above.is_none() => {
+                    Some(title) if is_first => {
                         title_above = Some((line.number, title));
                     }
                     _ => self.skipped.push(line.number),
@@ -613,6 +611,14 @@ impl Layout {
     fn has_text_behind(&self, fields: &Fields) -> bool {
         let most = self.count.max(self.named);
         fields.values.get(most).is_some_and(|text| !is_number(text))
+    }
+
+    /// Whether a line has the coordinates of a row and text behind them, where no names of columns tell what it is.
+    fn may_be_title(&self, fields: &Fields) -> bool {
+        let places = &mut self.coordinates.places.iter();
+        self.names.is_none()
+            && self.has_text_behind(fields)
+            && places.all(|place| fields.values.get(*place).is_some_and(|it| is_number(it)))
     }
 
     /// Tell whether a line is a row.

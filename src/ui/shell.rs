@@ -120,20 +120,20 @@ impl Shell {
 
 /// What is kept of a document.
 fn kept<'k, T>(all: &'k [(PathBuf, T)], path: &Path) -> Option<&'k T> {
-    let path = wherever(path);
+    let path = full(path);
     let (_, kept) = all.iter().find(|(known, _)| *known == path)?;
     Some(kept)
 }
 
 /// The path of a document that does not depend on the folder in which the program was started.
-fn wherever(path: &Path) -> PathBuf {
+fn full(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     disk::normal(&absolute)
 }
 
 /// Keep something of a document in front of the others.
 fn keep<T>(all: &mut Vec<(PathBuf, T)>, path: &Path, kept: T) {
-    let path = wherever(path);
+    let path = full(path);
     all.retain(|(known, _)| *known != path);
     all.insert(0, (path, kept));
     all.truncate(MOST_KEPT);

@@ -20,11 +20,11 @@ const FEW: usize = 20;
 /// piece's height.
 const STEPS: usize = 16;
 
-/// About so many steps along a spline of many pieces, each of which is small beside the whole.
-const MOST_STEPS: usize = 1 << 16;
-
 /// The same of a reference, whose pieces turn little.
 const REFERENCE_STEPS: usize = 4;
+
+/// About so many steps along a spline of many pieces, each of which is small beside the whole.
+const MOST_STEPS: usize = 1 << 16;
 
 /// The digits of a size.
 const DIGITS: usize = 4;

@@ -802,6 +802,14 @@ fn text_behind_rows_takes_no_points() {
     let below: &[[f64; 2]] = &plain[1..];
     let taken = "line 1 is taken for the title “1 2 start”, though it begins with numbers";
     check_lists("1 2 start\n3 4\n5 9\n", &[("1 2 start", below)], taken);
+    // The decimals of a title are none of the rows'.
+    let told = "line 1 is taken for the title “1,5 2,5 RIB”, though it begins with numbers";
+    let halves: &[[f64; 2]] = &[[3.5, 4.5], [5.5, 9.5]];
+    check_lists(
+        "1,5 2,5 RIB\n3.5 4.5\n5.5 9.5\n",
+        &[("1,5 2,5 RIB", halves)],
+        told,
+    );
     for text in [
         "x,y\n1,2,start\n3,4\n5,9\n",
         "# x y\n1 2 start\n3 4 # end\n5 9\n",
