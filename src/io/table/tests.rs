@@ -847,3 +847,29 @@ fn decimal_commas_may_stand_between_runs_of_blanks() {
         assert_eq!(points_of(text.as_bytes()), points, "{:?}", reading.remarks);
     }
 }
+
+#[test]
+fn what_formats_lose_of_references_is_named() {
+    let points = [0.0, 1.0, 4.0].map(|x| DVec3::new(x, x * x, 0.0)).to_vec();
+    let list = PointList::new(points).unwrap().apart();
+    let curve = ReferenceCurve::of(ReferenceForm::Points(list)).unwrap();
+    let mut scan = Reference::new("scan", curve).in_group(Group::from("Deck"));
+    (scan.visible, scan.locked) = (false, true);
+    scan.colour = Some(Colour([1, 2, 3]));
+    let document = Document::from_curves([planar()]).with_references([scan]);
+    let of_tables = [Loss::Colour, Loss::Apart, Loss::Hidden, Loss::Locked];
+    let of_others = &of_tables[2..];
+    let step = crate::io::formats::find("step").unwrap();
+    for (format, expected) in [
+        (&TABLE, &of_tables[..]),
+        (&crate::io::POINT_TABLE, &of_tables),
+        (step, of_others),
+    ] {
+        let losses = format.write(&document, None).unwrap().losses;
+        let of_scan = losses.losses.iter().filter(|(name, _)| name == "scan");
+        let of_scan: Vec<&Loss> = of_scan.map(|(_, loss)| loss).collect();
+        for loss in expected {
+            assert!(of_scan.contains(&loss), "{}: {losses}", format.name);
+        }
+    }
+}
