@@ -200,7 +200,9 @@ enum Section<'a> {
 /// Divide a file where a line with # announces a table, and where names of columns follow numbers.
 fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'a>>, ReadError> {
     let mut sections: Vec<Section> = Vec::new();
+    let mut title = TitleAbove::default();
     for mut line in all.split() {
+        title.note(&line);
         if let LineContent::Header(header) = &line.content {
             let header = TableHeader::parse(header);
             let header = header.map_err(|problem| Place::line(line.number).problem(problem))?;
@@ -214,7 +216,7 @@ fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'
                 Some(Section::Curve(_)) => None,
             };
             let Some(names) = names else {
-                comments.take(&line);
+                comments.take(&line)?;
                 continue;
             };
             line.content = LineContent::Fields(names);
@@ -226,12 +228,13 @@ fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'
             return Err(Place::line(line.number).problem(Problem::TooManyColumns));
         }
         if sections.last().is_none_or(|last| last.ends_before(fields)) {
+            let first = title.take().unwrap_or_else(|| line.without_content());
             let section = PointSection {
-                line: line.number,
-                lines: all.from(&line),
+                line: first.number,
+                lines: all.from(&first),
                 ..PointSection::default()
             };
-            begin(&mut sections, &line, Section::Points(section));
+            begin(&mut sections, &first, Section::Points(section));
         }
         match sections.last_mut() {
             Some(Section::Curve(block)) => block.has_columns = true,
@@ -240,6 +243,46 @@ fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'
         }
     }
     Ok(sections)
+}
+
+/// The text above a line with the names of columns, which is the title of what is below.
+#[derive(Default)]
+struct TitleAbove<'a> {
+    /// The first line of it.
+    line: Option<TableLine<'a>>,
+    /// Whether it touches the rows above: with a blank line below it ends these.
+    touches_rows: bool,
+    is_below_row: bool,
+}
+
+impl<'a> TitleAbove<'a> {
+    /// Look at the next line of the file.
+    fn note(&mut self, line: &TableLine<'a>) {
+        match &line.content {
+            LineContent::Blank => {
+                self.line.take_if(|_| self.touches_rows);
+                self.is_below_row = false;
+            }
+            LineContent::Comment => {}
+            LineContent::Header(_) => *self = Self::default(),
+            LineContent::Fields(fields) if fields.have_numbers(2) => {
+                self.line = None;
+                self.is_below_row = true;
+            }
+            LineContent::Fields(_) => {
+                if self.line.is_none() {
+                    self.line = Some(line.without_content());
+                    self.touches_rows = self.is_below_row;
+                }
+                self.is_below_row = false;
+            }
+        }
+    }
+
+    /// Take the first line of the title.
+    fn take(&mut self) -> Option<TableLine<'a>> {
+        self.line.take()
+    }
 }
 
 /// Begin a section at a line, which ends the one before.
@@ -411,7 +454,7 @@ pub(super) fn unit_line(unit: LengthUnit) -> String {
     format!("{UNIT_LINE}{}\n", unit.symbol())
 }
 
-/// The comments of a file, and the unit of length that the first line of this kind says.
+/// The comments of a file, and the unit of length that a line says.
 #[derive(Default)]
 struct Comments {
     unit: Option<LengthUnit>,
@@ -421,17 +464,22 @@ struct Comments {
 
 impl Comments {
     /// Take a comment, or the unit that it says.
-    fn take(&mut self, line: &TableLine) {
-        match unit_of(line.text).filter(|_| self.unit.is_none()) {
-            Some(unit) => self.unit = Some(unit),
-            None => {
-                self.first = if self.count == 0 {
-                    line.number
-                } else {
-                    self.first
-                };
-                self.count += 1;
+    ///
+    /// # Errors
+    /// [`Problem::MixedUnits`] with the line.
+    fn take(&mut self, line: &TableLine) -> Result<(), ReadError> {
+        let Some(unit) = unit_of(line.text) else {
+            if self.count == 0 {
+                self.first = line.number;
             }
+            self.count += 1;
+            return Ok(());
+        };
+        match self.unit.replace(unit) {
+            Some(known) if known != unit => {
+                Err(Place::line(line.number).problem(Problem::MixedUnits([known, unit])))
+            }
+            _ => Ok(()),
         }
     }
 

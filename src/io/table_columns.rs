@@ -156,6 +156,24 @@ impl FromStr for ColumnChoice {
     }
 }
 
+/// Whether a line below the names of columns has their units: each field is one of length, or in brackets.
+pub(super) fn are_units(fields: &Fields) -> bool {
+    let is_length = |text: &str| LengthUnit::of_symbol(text).is_some();
+    let mut has_length = false;
+    fields.values.iter().all(|field| {
+        let inside = unbracketed(field);
+        has_length |= is_length(inside);
+        is_length(inside) || inside != field.as_ref() || field.is_empty() || field == "-"
+    }) && has_length
+}
+
+/// The inside of a text in brackets; any other text as it is.
+fn unbracketed(text: &str) -> &str {
+    let inside = text.strip_prefix(['[', '(']);
+    let inside = inside.and_then(|it| it.strip_suffix([']', ')']));
+    inside.unwrap_or(text).trim()
+}
+
 /// The columns of the coordinates of points.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Coordinates {
@@ -193,6 +211,17 @@ impl ColumnNames {
             }
         }
         Self(names)
+    }
+
+    /// Put the units of a line below the names behind them.
+    pub(super) fn with_units(mut self, units: &Fields) -> Self {
+        for (name, unit) in self.0.iter_mut().zip(&units.values) {
+            let unit = unbracketed(unit);
+            if !unit.is_empty() && !name.is_empty() {
+                *name += &format!(" [{unit}]");
+            }
+        }
+        self
     }
 
     /// How many there are.

@@ -46,6 +46,16 @@ pub(super) struct TableLine<'a> {
     pub(super) content: LineContent<'a>,
 }
 
+impl<'a> TableLine<'a> {
+    /// The place of the line alone.
+    pub(super) fn without_content(&self) -> Self {
+        Self {
+            content: LineContent::Blank,
+            ..*self
+        }
+    }
+}
+
 /// The content of a line.
 #[derive(Clone, Debug)]
 pub(super) enum LineContent<'a> {

@@ -11,7 +11,9 @@ use super::error::{Place, Problem, ReadError};
 use super::exchange::spending::most_items;
 use super::point_section::{Content, PointSection, Usual};
 use super::reading::{Reading, Remark, Remarks, nameless};
-use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, Coordinates, WEIGHT, columns};
+use super::table_columns::{
+    COLUMNS, ColumnChoice, ColumnNames, Coordinates, WEIGHT, are_units, columns,
+};
 use super::table_lines::Fields;
 use super::tangent_plane::{TangentPlane, position};
 use crate::document::Reference;
@@ -22,6 +24,9 @@ use crate::geometry::references::{PointList, ReferenceCurve, ReferenceError, Ref
 const COUNTERS: [&str; 10] = [
     "nr", "no", "n", "#", "id", "i", "index", "num", "number", "point",
 ];
+
+/// So few rows below a text are part of the list above it.
+const LEAST_TITLED: usize = 3;
 
 /// No section of an airfoil has more points. To look for one takes memory.
 const MOST_OF_AIRFOIL: usize = 100_000;
@@ -68,6 +73,8 @@ struct Blocks {
     ends: Vec<usize>,
     /// The titles with their blocks and lines.
     titles: Vec<(usize, usize, String)>,
+    /// The blocks that end at a text without a blank line above it, which may be no title.
+    at_texts: Vec<usize>,
 }
 
 /// Which fields of which lines are coordinates.
@@ -80,8 +87,8 @@ struct Layout {
     numeric: usize,
     /// The number of column names, if there are more.
     named: usize,
-    /// The line with the names.
-    names: Option<usize>,
+    /// The line with the names, and that with their units.
+    names: Option<[usize; 2]>,
     /// The columns of the coordinates.
     coordinates: Coordinates,
     /// The unit behind the numbers of each of these columns.
@@ -107,9 +114,85 @@ impl Blocks {
         self.ends.push(self.rows.len());
     }
 
+    /// End a block at a text without a blank line above it.
+    fn end_at_text(&mut self, title: Option<(usize, String)>) {
+        self.at_texts.push(self.ends.len());
+        self.end(title);
+    }
+
+    /// Keep the end of the last block, though the text there is no title as nothing follows it. Returns whether it was one.
+    fn ends_with_text(&mut self) -> bool {
+        let last = self.ends.len();
+        !self.is_open() && self.at_texts.pop_if(|block| *block + 1 == last).is_some()
+    }
+
+    /// Whether every text without a blank line above it is a title: the rows above the first one have a title too, and
+    /// the rows between two of them can be a curve.
+    fn has_titles_alone(&self) -> bool {
+        let ends = self
+            .at_texts
+            .iter()
+            .filter_map(|block| self.ends.get(*block));
+        let mut places: Vec<usize> = [0].into_iter().chain(ends.copied()).collect();
+        places.push(self.rows.len());
+        let is_titled = self.titles.first().is_some_and(|(block, ..)| *block == 0);
+        is_titled
+            && places
+                .windows(2)
+                .all(|pair| pair[1] - pair[0] >= LEAST_TITLED)
+    }
+
+    /// Join the blocks that texts divide. Returns the lines of these.
+    fn join_at_texts(&mut self) -> Vec<usize> {
+        let at_texts = std::mem::take(&mut self.at_texts);
+        let is_at_text = |block: usize| at_texts.binary_search(&block).is_ok();
+        let ends = std::mem::take(&mut self.ends).into_iter().enumerate();
+        let ends = ends.filter(|(block, _)| !is_at_text(*block));
+        self.ends = ends.map(|(_, end)| end).collect();
+        let mut lines = Vec::new();
+        for (block, line, title) in std::mem::take(&mut self.titles) {
+            match block.checked_sub(1).is_some_and(is_at_text) {
+                true => lines.push(line),
+                false => {
+                    let joined = at_texts.partition_point(|it| *it < block);
+                    self.titles.push((block - joined, line, title));
+                }
+            }
+        }
+        lines
+    }
+
     /// Whether there are rows behind the last block.
     fn is_open(&self) -> bool {
         self.ends.last().copied().unwrap_or_default() < self.rows.len()
+    }
+
+    /// Whether each block is one row: there a blank line follows every row.
+    fn are_single(&self) -> bool {
+        self.rows.len() == self.ends.len()
+    }
+
+    /// Divide them at the titles.
+    fn by_title(self) -> Vec<Self> {
+        if self.titles.iter().all(|(block, ..)| *block == 0) {
+            return vec![self];
+        }
+        let mut parts: Vec<Self> = Vec::new();
+        let mut rows = self.rows.into_iter();
+        let mut titles = self.titles.into_iter().peekable();
+        let mut begin = 0;
+        for (block, end) in self.ends.into_iter().enumerate() {
+            let title = titles.next_if(|(titled, ..)| *titled == block);
+            if title.is_some() || parts.is_empty() {
+                parts.push(Self::default());
+            }
+            if let Some(part) = parts.last_mut() {
+                part.rows.extend(rows.by_ref().take(end - begin));
+                part.end(title.map(|(_, line, title)| (line, title)));
+            }
+            begin = end;
+        }
+        parts
     }
 
     /// The numbers of rows of the blocks.
@@ -163,18 +246,38 @@ impl<'a> PointReader<'a> {
             return Err(Place::line(section.line).problem(error.into()));
         }
         let is_on_earth = layout.is_some_and(|layout| layout.coordinates.on_earth.is_some());
+        let parts = match is_on_earth || blocks.are_single() {
+            true => vec![blocks],
+            false => blocks.by_title(),
+        };
+        let has_parts = parts.len() > 1;
+        let mut name = section.name.clone();
+        for part in parts {
+            self.add_blocks((section.line, name.take()), part, is_on_earth, has_parts)?;
+        }
+        Ok(())
+    }
+
+    /// Add the blocks of a section, which has a line and may have a name, or those below one title of it.
+    fn add_blocks(
+        &mut self,
+        (line, name): (usize, Option<String>),
+        blocks: Blocks,
+        is_on_earth: bool,
+        is_part: bool,
+    ) -> Result<(), ReadError> {
         let (blocks, told) = match is_on_earth {
             true => (blocks, None),
             false => self.in_order(blocks),
         };
         let blocks = self.joined(blocks);
         let lengths: Vec<usize> = blocks.lengths().collect();
-        let several = lengths.len() > 1;
+        let several = lengths.len() > 1 || is_part;
         let mut rows = blocks.rows.into_iter();
         let mut titles = blocks.titles.into_iter().peekable();
         let first = titles.peek().filter(|(block, ..)| *block == 0);
         let title = first.map(|(.., title)| title.clone());
-        let title = title.or(section.name.clone());
+        let title = title.or(name);
         for (index, length) in lengths.into_iter().enumerate() {
             let rows: Vec<Row> = match several {
                 true => rows.by_ref().take(length).collect(),
@@ -197,7 +300,7 @@ impl<'a> PointReader<'a> {
                 is_selig(&points).then_some(AirfoilOrder::Selig)
             });
             let own = own.map(|(.., title)| title);
-            self.add(section.line, own.or(numbered), rows, is_on_earth)?;
+            self.add(line, own.or(numbered), rows, is_on_earth)?;
             if let (Some(order), Some(added)) = (order, self.lists.last()) {
                 let name = added.name.clone();
                 self.remarks.add(Remark::Airfoil { name, order });
@@ -269,7 +372,7 @@ impl<'a> PointReader<'a> {
         let count = usual.count;
         let contents = section.contents(count);
         let names = self.names(section, &usual);
-        let place = Place::line(names.as_ref().map_or(usual.first, |(line, _)| *line));
+        let place = Place::line(names.as_ref().map_or(usual.first, |([line, _], _)| *line));
         let named = names.as_ref().map(|(_, names)| names);
         let most = count.max(named.map_or(0, ColumnNames::count));
         let weight = self.choice.map(|choice| choice.weight(named, most));
@@ -306,16 +409,16 @@ impl<'a> PointReader<'a> {
                 .rposition(|content| content.has_numbers())
                 .map_or(0, |last| last + 1),
             named: names.as_ref().map_or(0, |(_, names)| names.count()),
-            names: names.map(|(line, _)| line),
+            names: names.map(|(lines, _)| lines),
             coordinates,
             units,
             weight: weight.flatten(),
         }))
     }
 
-    /// Find the line with the column names: the last line of text above the first row, if it names x and y
-    /// or, where that is no title, has as many fields as the rows.
-    fn names(&self, section: &PointSection, usual: &Usual) -> Option<(usize, ColumnNames)> {
+    /// Find the line with the column names, and that with their units below it or the same: the last line of text above
+    /// the first row, if it names x and y or, where that is no title, has as many fields as the rows.
+    fn names(&self, section: &PointSection, usual: &Usual) -> Option<([usize; 2], ColumnNames)> {
         let (count, width) = (usual.count, usual.width);
         let above = section.fields().take_while(|(line, _)| *line < usual.first);
         let is_rule = |fields: &Fields| {
@@ -327,8 +430,16 @@ impl<'a> PointReader<'a> {
         let words = above.filter(|(_, fields)| {
             !fields.have_numbers(1) && !is_rule(fields) && !fields.lack_a_number()
         });
-        let (line, fields) = words.last()?;
-        let names = ColumnNames::of(&fields);
+        let mut words: Vec<(usize, Fields)> = words.collect();
+        let units = words.pop_if(|(_, fields)| are_units(fields));
+        let (line, names) = match (words.pop(), units) {
+            (Some((line, fields)), None) => ([line; 2], ColumnNames::of(&fields)),
+            (Some((line, fields)), Some((last, units))) => {
+                ([line, last], ColumnNames::of(&fields).with_units(&units))
+            }
+            (None, Some((line, fields))) => ([line; 2], ColumnNames::of(&fields)),
+            (None, None) => return None,
+        };
         // Words of a title are seldom divided by commas or semicolons.
         let is_title = match self.separator {
             _ if self.choice.is_some_and(ColumnChoice::has_names) => false,
@@ -441,6 +552,9 @@ impl<'a> PointReader<'a> {
                     self.check_count(lists, line.number)?;
                     begin = blocks.rows.len();
                     blocks.end(title_above.take());
+                } else if blocks.ends_with_text() {
+                    self.skipped
+                        .extend(title_above.take().map(|(line, _)| line));
                 }
                 continue;
             };
@@ -462,11 +576,15 @@ impl<'a> PointReader<'a> {
                     let (_, lines) = self.too_large.get_or_insert((text, Vec::new()));
                     lines.push(line.number);
                 }
-                Ok(Found::Text) if layout.names == Some(line.number) => {}
+                Ok(Found::Text) if layout.names.is_some_and(|it| it.contains(&line.number)) => {}
                 Ok(Found::Text) if fields.lack_a_number() => self.skipped.push(line.number),
                 Ok(Found::Text) => match title(line.text) {
-                    Some(title) if is_first => {
-                        title_above = Some((line.number, title));
+                    Some(title) if is_first => title_above = Some((line.number, title)),
+                    Some(title) if blocks.rows.len() >= begin + LEAST_TITLED => {
+                        lists += 1;
+                        self.check_count(lists, line.number)?;
+                        begin = blocks.rows.len();
+                        blocks.end_at_text(title_above.replace((line.number, title)));
                     }
                     _ => self.skipped.push(line.number),
                 },
@@ -475,7 +593,13 @@ impl<'a> PointReader<'a> {
         }
         match blocks.is_open() {
             true => blocks.end(title_above),
-            false => self.skipped.extend(title_above.map(|(line, _)| line)),
+            false => {
+                blocks.ends_with_text();
+                self.skipped.extend(title_above.map(|(line, _)| line));
+            }
+        }
+        if !blocks.has_titles_alone() {
+            self.skipped.extend(blocks.join_at_texts());
         }
         Ok(blocks)
     }
@@ -516,10 +640,9 @@ impl<'a> PointReader<'a> {
         (around, Some(order))
     }
 
-    /// Join blocks of one row each: there a blank line follows every row.
+    /// Join blocks of one row each.
     fn joined(&mut self, mut blocks: Blocks) -> Blocks {
-        let are_single = blocks.rows.len() == blocks.ends.len();
-        if are_single && !blocks.ends.is_empty() {
+        if blocks.are_single() && !blocks.ends.is_empty() {
             blocks.ends = vec![blocks.rows.len()];
             let (first, others): (Vec<_>, Vec<_>) =
                 blocks.titles.into_iter().partition(|it| it.0 == 0);

@@ -491,6 +491,71 @@ fn blank_lines_divide_points() {
 }
 
 #[test]
+fn titles_divide_points_without_a_blank_line() {
+    let keel = "0 1.5\n2.25 -3\n4 5\n";
+    let both = [("keel", POINTS), ("stem 2", POINTS)];
+    for (text, told) in [
+        (format!("keel\n{keel}stem 2\n{keel}"), ""),
+        (format!("keel\n\n{keel}stem 2\n{keel}\n"), ""),
+        (
+            format!("keel\n{keel}end of keel\n\nstem 2\n{keel}end"),
+            "lines 5 and 11 were skipped (no point)",
+        ),
+    ] {
+        check_lists(&text, &both, told);
+    }
+    let six = [POINTS, POINTS].concat();
+    check_lists(
+        &format!("{keel}stem\n{keel}"),
+        &[("points 1", &six)],
+        "line 4 was skipped (no point)",
+    );
+    check_lists(
+        &format!("keel\n{keel}stem\n1 1\n2 2\n"),
+        &[("keel", &[POINTS, &[[1.0, 1.0], [2.0, 2.0]]].concat())],
+        "line 5 was skipped (no point)",
+    );
+}
+
+#[test]
+fn later_blocks_with_names_of_columns_have_titles() {
+    let rows = "x,y\n0,1.5\n2.25,-3\n4,5\n";
+    for between in ["\nstem\n", "stem\n", "\nstem\n\n", "end\n\nstem\n"] {
+        let text = format!("keel\n{rows}{between}{rows}");
+        let told = match between.starts_with("end") {
+            true => "line 6 was skipped (no point)",
+            false => "",
+        };
+        check_lists(&text, &[("keel", POINTS), ("stem", POINTS)], told);
+    }
+    let curve = format!("# degree=1 name=line\nx,y\n0,0\n1,1\n\nstem\n{rows}");
+    let reading = read(curve.as_bytes()).unwrap();
+    assert_eq!(reading.references[0].name, "stem");
+    assert_eq!(reading.curves[0].name, "line");
+}
+
+#[test]
+fn a_line_below_the_names_of_columns_has_units() {
+    for (text, unit) in [
+        ("x,y\nmm,mm\n", LengthUnit::Millimetre),
+        ("keel\nx,y\n[in],[in]\n", LengthUnit::Inch),
+        ("x,y,c\nm,m,[deg]\n", LengthUnit::Metre),
+    ] {
+        let more = if text.contains("deg") { ",7" } else { "" };
+        let rows = POINTS.iter().map(|[x, y]| format!("{x},{y}{more}\n"));
+        let text = text.to_owned() + &rows.collect::<String>();
+        let reading = read(text.as_bytes()).unwrap();
+        assert_eq!(reading.unit, Some(unit), "{text}");
+        assert_eq!(reading.remarks.to_string(), "", "{text}");
+        assert_eq!(reading.references[0].points().unwrap().len(), 3);
+    }
+    let mixed = read(b"# unit=mm\n# unit=mm\n# unit=in\n0,1\n2,3\n").unwrap_err();
+    let expected =
+        "line 3: the columns are in millimetres and in inches: give all coordinates in one unit";
+    assert_eq!(mixed.to_string(), expected);
+}
+
+#[test]
 fn ambiguous_columns_are_named_and_can_be_chosen() {
     let text = b"t;width;height\n0;1;2\n1;3;5\n";
     let error = read(text).unwrap_err();
@@ -574,6 +639,14 @@ fn an_airfoil_in_lednicer_order_is_read_around_the_section() {
     ] {
         check_lists(&text, &[("foil", around)], &uncounted);
     }
+    let two = format!("foil\n 4. 4.\n\n{upper}\n{lower}\nnext\n 4. 4.\n\n{upper}\n{lower}");
+    let both = [("foil", around), ("next", around)];
+    let told_both = format!("{told}\n{}", told.replace("“foil”", "“next”"));
+    check_lists(&two, &both, &told_both);
+    let two = two.replace("\nnext", "next");
+    check_lists(&two, &both, &told_both);
+    let two = format!("{selig}next\n{}", rows(around));
+    check_lists(&two, &both, &told_both.replace("Lednicer", "Selig"));
     // Waterlines of a hull in metres may look alike.
     let hull = |row: &[f64; 2]| row.map(|value| 10.0 * value);
     let [side, other] = [&around[..4], &around[3..]].map(|side| side.iter().map(hull).collect());
