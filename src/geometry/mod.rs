@@ -101,7 +101,7 @@ pub use sampler::{BATCH_ORDER, Batch, Sampler};
 pub use segment_expansion::SegmentExpansion;
 pub use spacing::Spacing;
 pub use symmetry::Symmetry;
-pub use vector::bounds;
+pub use vector::{bounds, widen};
 pub use wording::{
     SMALL, coordinate, counted, degrees_text, figure, noun, panic_message, percent, radius_of,
     rounded_up, significant, to_resolution,

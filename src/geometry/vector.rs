@@ -53,6 +53,14 @@ pub fn bounds(points: impl IntoIterator<Item = impl Borrow<DVec3>>) -> (DVec3, D
     })
 }
 
+/// Widen a box by a point, unless it is not finite.
+pub fn widen(bounds: &mut Option<[DVec3; 2]>, point: DVec3) {
+    if point.is_finite() {
+        let [low, high] = bounds.unwrap_or([point; 2]);
+        *bounds = Some([low.min(point), high.max(point)]);
+    }
+}
+
 /// The largest absolute coordinate of points.
 pub(super) fn reach(points: impl IntoIterator<Item = impl Borrow<DVec3>>) -> f64 {
     let reach = points

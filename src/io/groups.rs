@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::exchange::drawing::{Drawing, Item, Kind, Shape, Space};
 use super::formats;
 use super::{Loss, Reading};
-use crate::document::{Curve, Document, Group, Reference};
+use crate::document::{Colour, Curve, Document, Group, Reference};
 use crate::geometry::FloatPolygon;
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::ReferenceCurve;
@@ -142,17 +142,21 @@ fn item(kind: Kind, path: &[&str], name: Option<&str>, shapes: usize) -> Item {
         name: name.map(str::to_owned),
         block: None,
         colour: None,
+        hidden: false,
         space: Space::Model,
         at: 1,
     }
 }
 
-fn reading(items: Vec<Item>) -> Reading {
-    let drawing = Drawing {
+fn drawing(items: Vec<Item>) -> Drawing {
+    Drawing {
         items,
         ..Drawing::default()
-    };
-    drawing.reading()
+    }
+}
+
+fn reading(items: Vec<Item>) -> Reading {
+    drawing(items).reading()
 }
 
 #[test]
@@ -181,14 +185,97 @@ fn the_pieces_of_an_item_are_a_group_and_so_is_a_block() {
     );
 }
 
-#[test]
-fn points_keep_a_group_that_they_share() {
-    let point = |group: &str| Item {
+fn point(group: &str, name: Option<&str>) -> Item {
+    Item {
         shapes: vec![Shape::Point(DVec3::new(group.len() as f64, 0.0, 0.0))],
-        ..item(Kind::Point, &[group], None, 0)
+        ..item(Kind::Point, &[group], name, 0)
+    }
+}
+
+#[test]
+fn single_points_make_a_list_for_each_name_and_layer() {
+    let reading = reading(vec![
+        point("Scan", Some("keel")),
+        point("Scan", Some("stem")),
+        point("Scan", Some("keel")),
+        point("Scan", Some("a")),
+        point("Scan", Some("b")),
+        point("Survey", Some("keel")),
+        point("0", None),
+    ]);
+    assert_eq!(
+        groups(&reading),
+        [
+            ("keel", vec!["Scan"]),
+            ("points", vec!["Scan"]),
+            ("points 2", vec![]),
+        ]
+    );
+    let counts = reading.references.iter();
+    let counts: Vec<usize> = counts
+        .map(|it| it.points().expect("a list").len())
+        .collect();
+    assert_eq!(counts, [2, 3, 2]);
+    assert_eq!(
+        reading.remarks.to_string(),
+        "points: its points had names of their own, which it has not\n\
+         points 2: its points had names of their own, which it has not\n\
+         points 2: its points had layers of their own, which it has not"
+    );
+}
+
+#[test]
+fn single_points_keep_their_colour_and_stay_hidden() {
+    let red = |hidden| Item {
+        colour: Some([200, 0, 0]),
+        hidden,
+        ..point("Scan", None)
     };
-    let shared = reading(vec![point("Scan"), point("Scan")]);
-    assert_eq!(groups(&shared), [("points", vec!["Scan"])]);
-    let apart = reading(vec![point("Scan"), point("Survey")]);
-    assert_eq!(groups(&apart), [("points", vec![])]);
+    let reading = reading(vec![red(false), red(true), red(false), red(true)]);
+    let kept = reading.references.iter();
+    let kept: Vec<_> = kept.map(|it| (it.visible, it.colour)).collect();
+    let colour = Some(Colour([200, 0, 0]));
+    assert_eq!(kept, [(true, colour), (false, colour)]);
+    let mixed = drawing(vec![red(false), point("Scan", None), point("Far", None)]);
+    let told = mixed.reading().remarks.to_string();
+    assert_eq!(
+        told,
+        "points: its points had colours of their own, which it has not\n\
+         a single point (at 1) is left out: a list has two or more"
+    );
+    let found = mixed.found();
+    assert_eq!(found.references(&found.choice()), [1, 1]);
+}
+
+#[test]
+fn layers_name_what_is_alone_on_them_where_items_have_no_names() {
+    let items = vec![
+        item(Kind::Line, &["Deck", "Rail"], None, 1),
+        point("Scan", None),
+        point("Scan", None),
+        point("Keel", None),
+        point("Keel", None),
+        item(Kind::Line, &["Keel"], None, 1),
+    ];
+    let mut drawing = drawing(items);
+    let keel = |points| (points, vec!["Keel"]);
+    assert_eq!(
+        groups(&drawing.reading()),
+        [
+            ("line 1", vec!["Deck", "Rail"]),
+            ("line 2", vec!["Keel"]),
+            ("points", vec!["Scan"]),
+            keel("points 2"),
+        ]
+    );
+    drawing.is_nameless = true;
+    assert_eq!(
+        groups(&drawing.reading()),
+        [
+            ("Rail", vec!["Deck"]),
+            ("line 1", vec!["Keel"]),
+            ("Scan", vec![]),
+            keel("points"),
+        ]
+    );
 }

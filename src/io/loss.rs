@@ -115,6 +115,11 @@ pub enum Loss {
         /// The element that it was.
         element: String,
     },
+    /// That it is a circle, say: a spline of the same form is written.
+    AsSpline {
+        /// What it was.
+        was: &'static str,
+    },
     /// The attributes of the points of a contour.
     PointAttributes,
     /// That an end is kept matched to another curve.
@@ -518,6 +523,9 @@ impl Loss {
             }
             Self::Kept { what } => format!("the {format} keeps the old {what}"),
             Self::AsPath { element } => format!("the {element} becomes a path"),
+            Self::AsSpline { was } => {
+                format!("the {was} becomes a spline of the same form in the {format}")
+            }
             Self::PointAttributes => "names and smoothness of its points are lost".to_owned(),
             Self::Colour => lost("the colour isn't"),
             Self::NearestColour => {
@@ -543,7 +551,9 @@ mod tests {
     use super::*;
     use crate::document::Colour;
     use crate::geometry::FloatPolygon;
+    use crate::geometry::references::{PointList, ReferenceCurve};
     use crate::io::formats;
+    use glam::DVec3;
 
     #[test]
     fn losses_of_one_kind_are_one_line_with_the_first_names_and_the_largest_figures() {
@@ -624,6 +634,42 @@ mod tests {
         assert_eq!(report.left_out(), [2, 1]);
         let why = "“a” is a spline of degree 9, which SVG cannot hold";
         assert_eq!(report.first_left_out().as_deref(), Some(why));
+    }
+
+    #[test]
+    fn shapes_that_a_format_has_not_are_told() {
+        let made = |form: &str| {
+            let curve = ReferenceCurve::from_text(form).expect("a curve");
+            Reference::new(form, curve)
+        };
+        let corners = PointList::new(vec![DVec3::ZERO, DVec3::X, DVec3::ONE]).expect("a list");
+        let polyline = ReferenceCurve::of(ReferenceForm::Points(corners)).expect("a polyline");
+        let references = [
+            made("circle"),
+            made("ellipse:a=2,b=1"),
+            Reference::new("polyline", polyline),
+        ];
+        let document = Document::default().with_references(references);
+        for (extension, expected) in [
+            ("json", &["circle", "ellipse", "polyline"][..]),
+            ("obj", &["circle", "ellipse"]),
+            ("3dm", &["ellipse"]),
+            ("step", &[]),
+            ("igs", &[]),
+            ("brep", &[]),
+            ("dxf", &[]),
+        ] {
+            let format = formats::find(extension).expect("a format");
+            let export = format.write(&document, None).expect("written");
+            let losses = export.losses.losses.iter();
+            let told: Vec<&str> = losses
+                .filter_map(|(_, loss)| match loss {
+                    Loss::AsSpline { was } => Some(*was),
+                    _ => None,
+                })
+                .collect();
+            assert_eq!(told, expected, "{extension}");
+        }
     }
 
     #[test]

@@ -140,26 +140,27 @@ impl ImportPanel {
 
     /// What is taken in all, with buttons for all and for nothing.
     fn sum_ui(&mut self, ui: &mut Ui, files: &[FoundFile]) {
-        let (mut curves, mut references) = (0, 0);
+        let (mut curves, mut references, mut left_out) = (0, 0, 0);
         for (file, choice) in files.iter().zip(&self.choices) {
-            let mut points = 0;
             for row in file.found.taken(choice) {
-                let floats = if choice.to_float { row.smooth } else { 0 };
-                curves += row.curves + floats;
-                references += row.references - floats;
-                points += row.points;
+                curves += row.curves + if choice.to_float { row.smooth } else { 0 };
             }
-            // All points make one reference.
-            references += usize::from(points > 1);
+            let [taken, lone] = file.found.references(choice);
+            references += taken;
+            left_out += lone;
         }
-        let counted = counted_items(curves, references);
+        let mut told = counted_items(curves, references);
+        if left_out > 0 {
+            let points = counted(left_out, "single point", "single points");
+            told.push_str(&format!(" ({points} left out)"));
+        }
         let size = match files {
             [file] => self.choices.first().and_then(|it| file.found.size(it)),
             _ => None,
         };
         let told = match size {
-            Some(size) => format!("Taken: {counted}; {size}"),
-            None => format!("Taken: {counted}"),
+            Some(size) => format!("Taken: {told}; {size}"),
+            None => format!("Taken: {told}"),
         };
         ui.horizontal(|ui| {
             ui.label(told);

@@ -290,11 +290,9 @@ fn a_glance_at_the_knots_tells_whether_there_is_a_float_polygon() {
     assert_eq!(has, made);
     let expected = [[true; 6].to_vec(), vec![false; 8], vec![true; 3]].concat();
     assert_eq!(has, expected);
-    let [low, high] = smooth[1]
-        .points_along(16)
-        .fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], it| {
-            [low.min(it), high.max(it)]
-        });
+    let mut bounds = None;
+    smooth[1].widen(&mut bounds, 16);
+    let [low, high] = bounds.expect("a box");
     let curve = reference(smooth[1].clone());
     for step in 0..=96 {
         let point = curve.derivatives(f64::from(step) / 16.0, 0)[0];

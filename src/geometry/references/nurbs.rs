@@ -14,7 +14,8 @@ use crate::geometry::control_polygon::MAX_MAGNITUDE;
 use crate::geometry::error::MAX_DEGREE;
 use crate::geometry::interval::Interval;
 use crate::geometry::power_series::PowerSeries;
-use crate::geometry::vector;
+use crate::geometry::root::root;
+use crate::geometry::vector::{self, widen};
 
 /// A piece may turn by about so much.
 const PIECE_TURNING: f64 = FRAC_PI_4;
@@ -174,14 +175,49 @@ impl Nurbs {
         values[n]
     }
 
-    /// Its points at so many even steps between each two knots, and at the knots.
-    pub fn points_along(&self, steps: usize) -> impl Iterator<Item = DVec3> {
-        self.spans().flat_map(move |knot| {
+    /// Widen a box by the curve: by its points at so many even steps between each two knots, and by those where a
+    /// coordinate turns. Between two steps a coordinate that turns back and forth again is passed over.
+    pub fn widen(&self, bounds: &mut Option<[DVec3; 2]>, steps: usize) {
+        for knot in self.spans() {
             let [from, to] = [self.knots[knot], self.knots[knot + 1]];
-            let share = move |step: usize| step as f64 / steps as f64;
-            let at = move |step| from * (1.0 - share(step)) + to * share(step);
-            let points = (0..=steps).map(move |step| self.expansion(knot, at(step), 0));
-            points.filter_map(|values| values.first().copied())
+            let at = |step: usize| {
+                let share = step as f64 / steps as f64;
+                let t = from * (1.0 - share) + to * share;
+                let values = self.expansion(knot, t, 1);
+                (t, values[0], values[1])
+            };
+            let mut before = at(0);
+            widen(bounds, before.1);
+            for step in 1..=steps {
+                let now = at(step);
+                widen(bounds, now.1);
+                for turn in self.turns(knot, [before, now], *bounds) {
+                    widen(bounds, turn);
+                }
+                before = now;
+            }
+        }
+    }
+
+    /// The points between two places where a coordinate turns, if it may leave a box there. The places have their
+    /// parameter, point and first derivative.
+    fn turns(
+        &self,
+        knot: usize,
+        [before, now]: [(f64, DVec3, DVec3); 2],
+        bounds: Option<[DVec3; 2]>,
+    ) -> impl Iterator<Item = DVec3> {
+        let axes = (0..3).filter(move |axis| {
+            let [a, b] = [before.2[*axis], now.2[*axis]];
+            // Its tangent reaches farther than a coordinate that turns once.
+            let farthest = before.1[*axis] + a * (now.0 - before.0);
+            let is_within =
+                bounds.is_some_and(|[low, high]| (low[*axis]..=high[*axis]).contains(&farthest));
+            a * b < 0.0 && !is_within
+        });
+        axes.map(move |axis| {
+            let slope = |t: f64| self.expansion(knot, t, 1)[1][axis];
+            self.expansion(knot, root([before.0, now.0], 0.0, slope), 0)[0]
         })
     }
 

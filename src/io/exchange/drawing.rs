@@ -33,6 +33,8 @@ pub struct Drawing {
     pub is_binary: bool,
     /// Whether lengths of the format have no unit at all, as in glyphs.
     pub is_unitless: bool,
+    /// Whether items of the format have no names: layers stand for them.
+    pub is_nameless: bool,
 }
 
 /// One curve, or one point, of a file.
@@ -50,6 +52,8 @@ pub struct Item {
     pub block: Option<String>,
     /// Red, green and blue, if the file gives a colour.
     pub colour: Option<[u8; 3]>,
+    /// Whether the file hides it, or its layer.
+    pub hidden: bool,
     /// Where it belongs.
     pub space: Space,
     /// The line or the byte of its entity, from 1.

@@ -1,8 +1,8 @@
 //! The rows of the table of formats for CAD and drawing programs.
 
 use super::changes::Rewriter;
-use super::drawing::{Drawing, Unreadable};
-use super::writing::{Holds, KeptGroup, Manner, Marks, Written};
+use super::drawing::{Drawing, Shape, Unreadable};
+use super::writing::{Manner, Marks, Written};
 use super::{brep, curve_json, glif, iges, obj, step, svg, threedm};
 use crate::document::Document;
 use crate::geometry::PolygonKind;
@@ -34,13 +34,9 @@ pub static STEP: Format = Format {
     file_unit: FileUnit::Always,
     draw: Some(step::read),
     write: Some(|document, writing, losses| {
-        written(
-            document,
-            writing,
-            losses,
-            (joined, Marks::ALL),
-            |drawing, name| step::write(drawing, name, step::Protocol::Ap214),
-        )
+        written(document, writing, losses, SPLINES, |drawing, name| {
+            step::write(drawing, name, step::Protocol::Ap214)
+        })
     }),
     exports: &[ExportRow {
         label: "Export STEP…",
@@ -59,13 +55,9 @@ pub static STEP_AP242: Format = Format {
     file_unit: FileUnit::Always,
     draw: Some(step::read),
     write: Some(|document, writing, losses| {
-        written(
-            document,
-            writing,
-            losses,
-            (joined, Marks::ALL),
-            |drawing, name| step::write(drawing, name, step::Protocol::Ap242),
-        )
+        written(document, writing, losses, SPLINES, |drawing, name| {
+            step::write(drawing, name, step::Protocol::Ap242)
+        })
     }),
     ..NONE
 };
@@ -77,7 +69,7 @@ pub static IGES: Format = Format {
     file_unit: FileUnit::Always,
     draw: Some(iges::read),
     write: Some(|document, writing, losses| {
-        written(document, writing, losses, (joined, Marks::ALL), iges::write)
+        written(document, writing, losses, SPLINES, iges::write)
     }),
     exports: &[ExportRow {
         label: "Export IGES…",
@@ -100,7 +92,11 @@ pub static THREEDM: Format = Format {
             document,
             writing,
             losses,
-            (threedm::kept_group, Marks::ALL),
+            Manner {
+                kept: threedm::kept_group,
+                as_splines: threedm::is_spline,
+                ..SPLINES
+            },
             threedm::write,
         )
     }),
@@ -125,7 +121,7 @@ pub static SVG: Format = Format {
             written: Written::Cubics(writing.tolerance),
             kept: svg::kept_group,
             holds: svg::holds,
-            marks: Marks::ALL,
+            ..SPLINES
         };
         drawn(document, &manner, losses, svg::write)
     }),
@@ -134,7 +130,7 @@ pub static SVG: Format = Format {
             written: Written::Cubics(None),
             kept: <[String]>::to_vec,
             holds: svg::holds,
-            marks: Marks::ALL,
+            ..SPLINES
         },
         write: svg::rewrite,
     }),
@@ -160,6 +156,7 @@ pub static GLIF: Format = Format {
             kept: none,
             holds: glif::holds,
             marks: Marks::NONE,
+            ..SPLINES
         };
         let bytes = drawn(document, &manner, losses, glif::write)?;
         // The glyph has the name of its first contour.
@@ -174,7 +171,7 @@ pub static GLIF: Format = Format {
             written: Written::Cubics(None),
             kept: <[String]>::to_vec,
             holds: glif::holds,
-            marks: Marks::ALL,
+            ..SPLINES
         },
         write: glif::rewrite,
     }),
@@ -191,7 +188,12 @@ pub static OBJ: Format = Format {
             document,
             writing,
             losses,
-            (obj::kept_group, Marks::NAMES),
+            Manner {
+                kept: obj::kept_group,
+                marks: Marks::NAMES,
+                as_splines: |shape| matches!(shape, Shape::Conic(_)),
+                ..SPLINES
+            },
             obj::write,
         )
     }),
@@ -209,7 +211,11 @@ pub static BREP: Format = Format {
             document,
             writing,
             losses,
-            (none, Marks::NONE),
+            Manner {
+                kept: none,
+                marks: Marks::NONE,
+                ..SPLINES
+            },
             |drawing, name| brep::write(&drawing.in_millimetres(), name),
         )
     }),
@@ -223,12 +229,13 @@ pub static CURVE_JSON: Format = Format {
     draw: Some(curve_json::read),
     write: Some(|document, writing, losses| {
         let manner = Manner {
-            written: Written::Knots(writing.polygon.unwrap_or(PolygonKind::Clamped)),
             kept: <[String]>::to_vec,
             holds: curve_json::holds,
             marks: Marks::NAMES,
+            as_splines: |shape| matches!(shape, Shape::Conic(_) | Shape::Polyline { .. }),
+            ..SPLINES
         };
-        drawn(document, &manner, losses, curve_json::write)
+        written(document, writing, losses, manner, curve_json::write)
     }),
     ..NONE
 };
@@ -244,7 +251,7 @@ pub fn svg_path(document: &Document) -> Result<(String, LossReport), WriteError>
         written: Written::Cubics(None),
         kept: none,
         holds: svg::holds,
-        marks: Marks::ALL,
+        ..SPLINES
     };
     let drawing = Drawing::of(document, &manner, &mut losses)?;
     let data = svg::path_data(&drawing);
@@ -277,21 +284,24 @@ fn written(
     document: &Document,
     writing: &Writing,
     losses: &mut LossReport,
-    (kept, marks): (KeptGroup, Marks),
+    manner: Manner,
     write: WriteDrawing,
 ) -> Result<Vec<u8>, WriteError> {
-    let knots = writing.polygon.unwrap_or(PolygonKind::Clamped);
     let manner = Manner {
-        written: Written::Knots(knots),
-        kept,
-        holds: ANYTHING,
-        marks,
+        written: Written::Knots(writing.polygon.unwrap_or(PolygonKind::Clamped)),
+        ..manner
     };
     drawn(document, &manner, losses, write)
 }
 
-/// Formats of splines hold every item.
-const ANYTHING: Holds = |_| Ok(());
+/// What formats make that hold every item, with names, colours and the names of layers.
+const SPLINES: Manner = Manner {
+    written: Written::Knots(PolygonKind::Clamped),
+    kept: joined,
+    holds: |_| Ok(()),
+    marks: Marks::ALL,
+    as_splines: |_| false,
+};
 
 fn drawn(
     document: &Document,

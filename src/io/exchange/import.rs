@@ -9,19 +9,17 @@ use super::choice::free_space;
 pub use super::choice::{ImportChoice, RowKey};
 use super::drawing::{Drawing, Item, Kind, Other, Shape, Space};
 use super::reading::Made;
+use super::single_points::{SinglePoint, lists};
+use super::splines::outermost;
 use crate::geometry::expressions::LengthUnit;
-use crate::geometry::references::{Nurbs, ReferenceCurve};
-use crate::geometry::{ParametricCurve, significant};
+use crate::geometry::references::Nurbs;
+use crate::geometry::{significant, widen};
 
 /// So many items come in unasked; more are worth a look before they fill the canvas.
 const FEW: usize = 20;
 
-/// The steps across a piece of a curve at which its box is measured: it then misses less than a hundredth of the
-/// piece's height.
+/// The steps between two knots of a spline at which its box is measured: a coordinate seldom turns twice between them.
 const STEPS: usize = 16;
-
-/// The same of a reference, whose pieces turn little.
-const REFERENCE_STEPS: usize = 4;
 
 /// About so many steps along a spline of many pieces, each of which is small beside the whole.
 const MOST_STEPS: usize = 1 << 16;
@@ -51,8 +49,10 @@ pub struct FoundRow {
     pub references: usize,
     /// How many of these are smooth: float polygons can be made of them.
     pub smooth: usize,
-    /// How many are single points, which make one reference in all.
-    pub points: usize,
+    /// How many lists of points single points make.
+    pub lists: usize,
+    /// How many single points are in none of these: shown, then hidden ones.
+    pub lone: [usize; 2],
     /// The corners of the box around them, in the unit of the file.
     pub bounds: Option<[DVec3; 2]>,
 }
@@ -117,7 +117,8 @@ impl FoundRow {
             curves: 0,
             references: 0,
             smooth: 0,
-            points: 0,
+            lists: 0,
+            lone: [0; 2],
             bounds: None,
         }
     }
@@ -137,18 +138,19 @@ impl FoundRow {
                 self.add_spline(&nurbs);
                 continue;
             }
-            match Made::of(shape) {
-                Ok(Made::Reference(curve)) => {
+            let is_made = || Made::of(shape).is_ok();
+            match shape {
+                Shape::Point(point) => widen(&mut self.bounds, *point),
+                Shape::Conic(conic) if is_made() => {
                     self.references += 1;
-                    self.smooth += usize::from(curve.form().is_smooth());
-                    self.reach(&curve);
+                    self.smooth += 1;
+                    outermost(conic).for_each(|it| widen(&mut self.bounds, it));
                 }
-                Ok(Made::Curve(_)) | Err(_) => {
-                    if let Shape::Point(point) = shape {
-                        self.points += 1;
-                        self.include(*point);
-                    }
+                Shape::Polyline { points, .. } if is_made() => {
+                    self.references += 1;
+                    points.iter().for_each(|it| widen(&mut self.bounds, *it));
                 }
+                Shape::Conic(_) | Shape::Polyline { .. } | Shape::Nurbs(_) => {}
             }
         }
     }
@@ -162,25 +164,16 @@ impl FoundRow {
             self.smooth += 1;
         }
         let steps = (MOST_STEPS / nurbs.points().len()).clamp(1, STEPS);
-        nurbs.points_along(steps).for_each(|it| self.include(it));
+        nurbs.widen(&mut self.bounds, steps);
     }
 
-    /// Widen the box by a reference.
-    fn reach(&mut self, curve: &ReferenceCurve) {
-        for piece in 0..curve.pieces() {
-            for step in 0..=REFERENCE_STEPS {
-                let mut point = [DVec3::ZERO];
-                let t = step as f64 / REFERENCE_STEPS as f64;
-                curve.fill_derivatives(piece, t, &mut point);
-                self.include(point[0]);
+    /// Count the lists of single points.
+    fn add_points(&mut self, points: Vec<SinglePoint>) {
+        for list in lists(points) {
+            match list[..] {
+                [only] => self.lone[usize::from(only.item.hidden)] += 1,
+                _ => self.lists += 1,
             }
-        }
-    }
-
-    fn include(&mut self, point: DVec3) {
-        if point.is_finite() {
-            let [low, high] = self.bounds.unwrap_or([point; 2]);
-            self.bounds = Some([low.min(point), high.max(point)]);
         }
     }
 }
@@ -190,6 +183,7 @@ impl Drawing {
     pub fn found(&self) -> Found {
         let mut rows: Vec<FoundRow> = Vec::new();
         let mut places: HashMap<RowKey, usize> = HashMap::new();
+        let mut points: HashMap<usize, Vec<SinglePoint>> = HashMap::new();
         for item in &self.items {
             let key = RowKey::of(item);
             let place = *places.entry(key.clone()).or_insert_with(|| {
@@ -198,6 +192,14 @@ impl Drawing {
             });
             if let Some(row) = rows.get_mut(place) {
                 row.add(item);
+            }
+            for point in SinglePoint::of(item) {
+                points.entry(place).or_default().push(point);
+            }
+        }
+        for (place, points) in points {
+            if let Some(row) = rows.get_mut(place) {
+                row.add_points(points);
             }
         }
         rows.sort_by_key(|row| match row.key.space {
@@ -308,6 +310,23 @@ impl Found {
         rows.filter(|row| choice.taken.contains(&row.key))
     }
 
+    /// Count the references that are made of what is taken, beside those of which float polygons are made, and the single
+    /// points that are left out.
+    pub fn references(&self, choice: &ImportChoice) -> [usize; 2] {
+        let mut count = 0;
+        let mut lone = [0; 2];
+        for row in self.taken(choice) {
+            let floats = if choice.to_float { row.smooth } else { 0 };
+            count += row.references - floats + row.lists;
+            for (sum, own) in lone.iter_mut().zip(row.lone) {
+                *sum += own;
+            }
+        }
+        let joined = lone.iter().filter(|count| **count > 1).count();
+        let left_out = lone.iter().filter(|count| **count == 1).count();
+        [count + joined, left_out]
+    }
+
     /// What is not understood, by name with its count and the place of the first, a line each.
     pub fn not_understood(&self) -> impl Iterator<Item = String> {
         let other = self.other.iter();
@@ -405,6 +424,7 @@ mod tests {
             name: None,
             block: None,
             colour: None,
+            hidden: false,
             space,
             at: 7,
         }
@@ -565,6 +585,71 @@ mod tests {
             ..ImportFilter::default()
         };
         assert!(matches!(count(&arcs), Err(FilterError::Nothing { .. })));
+    }
+
+    #[test]
+    fn boxes_reach_to_where_a_coordinate_turns() {
+        let bounds = |shape| {
+            let drawing = Drawing {
+                items: vec![item(&[], Kind::Spline, Space::Model, shape)],
+                ..Drawing::default()
+            };
+            drawing.found().rows[0].bounds.expect("a box")
+        };
+        let check = |shape, expected: [[f64; 2]; 2]| {
+            let found = bounds(shape).map(|corner| [corner.x, corner.y]);
+            for (found, expected) in found.as_flattened().iter().zip(expected.as_flattened()) {
+                assert!((found - expected).abs() <= 1e-14, "{found} {expected}");
+            }
+        };
+        // y = 3t(1 − t)² is greatest at t = 1/3.
+        let cubic = Shape::Nurbs(Nurbs {
+            degree: 3,
+            knots: [[0.0; 4], [1.0; 4]].concat(),
+            points: [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0), (3.0, 0.0)]
+                .map(|(x, y)| DVec3::new(x, y, 0.0))
+                .to_vec(),
+            weights: None,
+            periodic: false,
+        });
+        check(cubic, [[0.0, 0.0], [3.0, 4.0 / 9.0]]);
+        // A circle by three rational quadratic pieces, whose knots are at no axis.
+        let circle = |angle: f64| DVec3::new(angle.cos(), angle.sin(), 0.0);
+        let points = (0..7).map(|index| {
+            let angle = 0.3 + std::f64::consts::FRAC_PI_3 * f64::from(index);
+            if index % 2 == 0 {
+                circle(angle)
+            } else {
+                2.0 * circle(angle)
+            }
+        });
+        let weights = (0..7).map(|index| if index % 2 == 0 { 1.0 } else { 0.5 });
+        let knots = [0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 3.0];
+        let circle = Shape::Nurbs(Nurbs {
+            degree: 2,
+            knots: knots.to_vec(),
+            points: points.collect(),
+            weights: Some(weights.collect()),
+            periodic: false,
+        });
+        check(circle, [[-1.0, -1.0], [1.0, 1.0]]);
+        // An ellipse with oblique half-axes: its box has the half sides √(3² + 1²) and √(1² + 2²).
+        let ellipse = |to| {
+            Shape::Conic(Conic {
+                centre: DVec3::ZERO,
+                x: DVec3::new(3.0, 1.0, 0.0),
+                y: DVec3::new(-1.0, 2.0, 0.0),
+                from: 0.0,
+                to,
+            })
+        };
+        let [a, b] = [10.0_f64.sqrt(), 5.0_f64.sqrt()];
+        check(ellipse(std::f64::consts::TAU), [[-a, -b], [a, b]]);
+        // A quarter of it runs from (3, 1) over its highest point to (−1, 2).
+        check(
+            ellipse(std::f64::consts::FRAC_PI_2),
+            [[-1.0, 1.0], [3.0, b]],
+        );
     }
 
     #[test]

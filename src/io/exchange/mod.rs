@@ -19,6 +19,7 @@ mod obj;
 mod pieces;
 mod reading;
 mod remarks;
+mod single_points;
 pub(super) mod spending;
 mod spline_part;
 mod splines;

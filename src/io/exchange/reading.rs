@@ -8,6 +8,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::choice::{ImportChoice, RowKey, free_space};
 use super::drawing::{Affine, Conic, Drawing, Item, Kind, Nurbs as DrawnNurbs, Shape, Space};
+use super::single_points::{SinglePoint, common, lists};
 use crate::document::{Colour, Curve, Group, Reference};
 use crate::geometry::expressions::LengthUnit;
 use crate::geometry::references::{
@@ -44,7 +45,7 @@ impl Drawing {
     }
 
     /// The item and the shape of which each curve, then each reference of [`Drawing::reading`] is made; `None` for
-    /// points, which make one reference.
+    /// lists of single points.
     pub(in crate::io) fn sources(&self) -> [Vec<Option<ShapePlace>>; 2] {
         let space = free_space(self.items.iter().map(|item| item.space));
         self.taken_from(|item| item.space == space).1
@@ -70,6 +71,7 @@ impl Drawing {
             crowds: HashMap::new(),
             sources: Default::default(),
             factor,
+            is_nameless: self.is_nameless,
         };
         for item in &self.items {
             *taken.crowds.entry(item.group.clone()).or_default() += 1;
@@ -128,25 +130,27 @@ fn own_colour(colour: [u8; 3]) -> Option<Colour> {
 }
 
 /// What was taken so far.
-struct Taken {
+struct Taken<'d> {
     reading: Reading,
     names: Names,
     /// The names of items of several pieces, each of which is a group.
     chains: Names,
-    /// The single points, which make one reference, with their groups.
-    points: Vec<(DVec3, Group)>,
+    /// The single points.
+    points: Vec<SinglePoint<'d>>,
     /// How many items each group has.
     crowds: HashMap<Vec<String>, usize>,
     /// Of what each curve, then each reference is made.
     sources: [Vec<Option<ShapePlace>>; 2],
     factor: f64,
+    /// Whether layers stand for the names of items.
+    is_nameless: bool,
 }
 
 /// The layers that items without one are on, in DXF and in 3DM.
 const DEFAULT_LAYERS: [&str; 2] = ["0", "Default"];
 
-impl Taken {
-    fn take(&mut self, place: usize, item: &Item) {
+impl<'d> Taken<'d> {
+    fn take(&mut self, place: usize, item: &'d Item) {
         let shapes = item.shapes.len();
         let (own, layers) = self.placed(item);
         let chain = (shapes > 1).then(|| match own {
@@ -160,7 +164,8 @@ impl Taken {
         let group = Group::new(layers.iter().chain(&item.block).chain(&chain));
         for (index, shape) in item.shapes.iter().enumerate() {
             if let Shape::Point(point) = shape {
-                self.points.push((self.factor * *point, group.clone()));
+                let point = self.factor * *point;
+                self.points.push(SinglePoint { point, item });
                 continue;
             }
             let name = match own.or(chain.as_ref()) {
@@ -171,12 +176,13 @@ impl Taken {
             match Made::of(&scaled(shape, self.factor)) {
                 Ok(Made::Curve(near)) => {
                     self.sources[0].push(Some([place, index]));
-                    self.add_curve(name, near, item.colour, group.clone());
+                    self.add_curve(name, near, item, group.clone());
                 }
                 Ok(Made::Reference(curve)) => {
                     self.sources[1].push(Some([place, index]));
                     let mut reference = Reference::new(name, curve).in_group(group.clone());
                     reference.colour = item.colour.and_then(own_colour);
+                    reference.visible = !item.hidden;
                     self.reading.references.push(Arc::new(reference));
                 }
                 Err(error) => self.tell(format!("{name} (at {}) is left out: {error}", item.at)),
@@ -184,24 +190,22 @@ impl Taken {
         }
     }
 
-    /// An item that is alone on a layer and has no name is called like the layer, which then is no group; nor is the
-    /// layer that items without one are on.
+    /// The name of an item, and the layers that become its group: not that which items without one are on.
     fn placed<'a>(&self, item: &'a Item) -> (Option<&'a String>, &'a [String]) {
-        let is_alone = self.crowds.get(&item.group) == Some(&1) && item.block.is_none();
         match (&item.name, &item.group[..]) {
             (name, [layer]) if DEFAULT_LAYERS.contains(&layer.as_str()) => (name.as_ref(), &[]),
-            (None, [outer @ .., layer]) if is_alone => (Some(layer), outer),
+            (None, [outer @ .., layer]) if self.are_layer(item, 1) => (Some(layer), outer),
             (name, layers) => (name.as_ref(), layers),
         }
     }
 
-    fn add_curve(
-        &mut self,
-        name: String,
-        near: NearestFloat,
-        colour: Option<[u8; 3]>,
-        group: Group,
-    ) {
+    /// Whether so many items are all that its layer has, in a format that has layers in place of names.
+    fn are_layer(&self, item: &Item, count: usize) -> bool {
+        let on_layer = self.crowds.get(&item.group);
+        self.is_nameless && on_layer == Some(&count) && item.block.is_none()
+    }
+
+    fn add_curve(&mut self, name: String, near: NearestFloat, item: &Item, group: Group) {
         let number = self.reading.curves.len() + 1;
         if !near.is_close {
             self.reading.remarks.add(Remark::CurveOff {
@@ -211,7 +215,8 @@ impl Taken {
             });
         }
         let mut curve = Curve::new(name, near.polygon).in_group(group);
-        curve.colour = colour.and_then(own_colour);
+        curve.colour = item.colour.and_then(own_colour);
+        curve.visible = !item.hidden;
         self.reading.curves.push(Arc::new(curve));
     }
 
@@ -226,11 +231,16 @@ impl Taken {
         chosen: &[&Item],
         rest: &[&Item],
     ) -> (Reading, [Vec<Option<ShapePlace>>; 2]) {
-        let points = std::mem::take(&mut self.points);
-        match points.len() {
-            0 => {}
-            1 => self.tell("a single point is left out: a reference has two or more".to_owned()),
-            _ => self.add_points(points, name_of_all(chosen)),
+        for list in lists(std::mem::take(&mut self.points)) {
+            match &list[..] {
+                [only] => {
+                    let at = only.item.at;
+                    self.tell(format!(
+                        "a single point (at {at}) is left out: a list has two or more"
+                    ));
+                }
+                _ => self.add_points(&list),
+            }
         }
         let count = |items: &[&Item], space: Space| {
             let of_space = items.iter().filter(|item| item.space == space);
@@ -275,26 +285,45 @@ impl Taken {
         (self.reading, self.sources)
     }
 
-    /// Add a reference of single points, with the name that all of them have.
-    fn add_points(&mut self, points: Vec<(DVec3, Group)>, name: Option<&str>) {
-        let (points, groups): (Vec<DVec3>, Vec<Group>) = points.into_iter().unzip();
-        // Points of several groups are in none.
-        let mut groups = groups.into_iter();
-        let first = groups.next().unwrap_or_default();
-        let group = match groups.all(|group| group == first) {
-            true => first,
-            false => Group::default(),
+    /// Add a list of single points, with the name, the layer and the colour that all of them have. What differs is
+    /// told.
+    fn add_points(&mut self, list: &[SinglePoint]) {
+        let name = common(list, |item| item.name.as_deref());
+        let place = common(list, |item| (&item.group, &item.block));
+        let colour = common(list, |item| item.colour);
+        let are_layer = place.is_some() && self.are_layer(list[0].item, list.len());
+        let (own, group) = match place {
+            None => (None, Group::default()),
+            Some((layers, block)) => match &layers[..] {
+                [layer] if DEFAULT_LAYERS.contains(&layer.as_str()) => (None, Group::new(block)),
+                [outer @ .., layer] if are_layer => (Some(layer.as_str()), Group::new(outer)),
+                layers => (None, Group::new(layers.iter().chain(block))),
+            },
         };
-        let name = self.names.free(name.unwrap_or("points"));
-        let list = PointList::new(points).map(PointList::apart);
-        let curve = list.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
+        let name_of_all = name.flatten().or(own).unwrap_or("points");
+        let name_of_all = self.names.free(name_of_all);
+        let differing = [
+            (name.is_none(), "names"),
+            (place.is_none(), "layers"),
+            (colour.is_none(), "colours"),
+        ];
+        for (_, what) in differing.iter().filter(|(differs, _)| *differs) {
+            let what =
+                format!("{name_of_all}: its points had {what} of their own, which it has not");
+            self.tell(what);
+        }
+        let points = list.iter().map(|it| it.point).collect();
+        let points = PointList::new(points).map(PointList::apart);
+        let curve = points.and_then(|list| ReferenceCurve::of(ReferenceForm::Points(list)));
         match curve {
             Ok(curve) => {
-                let reference = Reference::new(name, curve).in_group(group);
+                let mut reference = Reference::new(name_of_all, curve).in_group(group);
+                reference.colour = colour.flatten().and_then(own_colour);
+                reference.visible = !list[0].item.hidden;
                 self.sources[1].push(None);
                 self.reading.references.push(Arc::new(reference));
             }
-            Err(error) => self.tell(format!("the points are left out: {error}")),
+            Err(error) => self.tell(format!("{name_of_all} is left out: {error}")),
         }
     }
 }
@@ -330,14 +359,6 @@ impl Names {
         let name = format!("{} {count}", kind.name());
         self.free(&name)
     }
-}
-
-/// The name that all points have.
-fn name_of_all<'d>(items: &[&'d Item]) -> Option<&'d str> {
-    let points = items.iter().filter(|item| item.kind == Kind::Point);
-    let mut names = points.map(|item| item.name.as_deref());
-    let first = names.next()??;
-    names.all(|name| name == Some(first)).then_some(first)
 }
 
 fn scaled(shape: &Shape, factor: f64) -> Cow<'_, Shape> {

@@ -1,7 +1,7 @@
 //! What the formats that hold splines, and those that hold Bézier curves alone, need to know of a shape.
 
 use std::borrow::Cow;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec3;
 
@@ -110,6 +110,21 @@ pub(super) fn spline(shape: &Shape) -> Option<Cow<'_, Nurbs>> {
 pub(super) fn at(conic: &Conic, parameter: f64) -> DVec3 {
     let (sin, cos) = parameter.sin_cos();
     conic.centre + cos * conic.x + sin * conic.y
+}
+
+/// The ends of an arc, and its points where a coordinate turns.
+pub(super) fn outermost(conic: &Conic) -> impl Iterator<Item = DVec3> {
+    let Conic { x, y, from, to, .. } = *conic;
+    let turns = x.to_array().into_iter().zip(y.to_array());
+    let turns = turns.flat_map(move |(x, y)| {
+        let phase = y.atan2(x);
+        let first = phase + PI * ((from - phase) / PI).ceil();
+        (0..3).map(move |turn| first + PI * f64::from(turn))
+    });
+    let parameters = [from, to]
+        .into_iter()
+        .chain(turns.filter(move |it| *it < to));
+    parameters.map(|parameter| at(conic, parameter))
 }
 
 /// Say which item something is about.

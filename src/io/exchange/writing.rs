@@ -26,6 +26,8 @@ pub(in crate::io) struct Manner {
     pub(in crate::io) holds: Holds,
     /// What it holds of names and colours.
     pub(in crate::io) marks: Marks,
+    /// Which shapes become splines of the same form.
+    pub(in crate::io) as_splines: fn(&Shape) -> bool,
 }
 
 /// What a format holds of the names and colours of items.
@@ -149,6 +151,10 @@ impl Item {
                 Ok(()) => item,
                 Err(_) => named(in_beziers(shape)),
             };
+            if item.shapes.iter().any(manner.as_splines) {
+                let loss = Loss::AsSpline { was: kind.name() };
+                own.losses.push((reference.name.clone(), loss));
+            }
             item.held(manner, std::mem::take(&mut own.losses), false, losses)
         });
         items.collect()
@@ -223,6 +229,7 @@ fn named(name: &str, kind: Kind, shape: Shape) -> Item {
         name: Some(name.to_owned()),
         block: None,
         colour: None,
+        hidden: false,
         space: Space::Model,
         at: 0,
     }

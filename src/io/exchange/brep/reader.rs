@@ -321,6 +321,7 @@ impl Reader {
             name: None,
             block: None,
             colour: None,
+            hidden: false,
             space,
             at: line,
         };

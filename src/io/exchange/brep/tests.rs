@@ -198,6 +198,7 @@ fn item(kind: Kind, shapes: Vec<Shape>) -> Item {
         name: None,
         block: None,
         colour: None,
+        hidden: false,
         space: Space::Model,
         at: 0,
     }

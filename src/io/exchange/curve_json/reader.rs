@@ -84,6 +84,7 @@ impl<'d> File<'d> {
                 name,
                 block: None,
                 colour: None,
+                hidden: false,
                 space: Space::Model,
                 at: line,
             }),

@@ -15,6 +15,7 @@ fn item(shape: Shape) -> Item {
         name: None,
         block: None,
         colour: None,
+        hidden: false,
         space: Space::Model,
         at: 4,
     }

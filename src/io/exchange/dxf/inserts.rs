@@ -75,7 +75,10 @@ impl<'a, 'n> Placer<'a, 'n> {
         Self {
             sections,
             notes,
-            drawing: Drawing::default(),
+            drawing: Drawing {
+                is_nameless: true,
+                ..Drawing::default()
+            },
             others: HashMap::new(),
             parts: HashMap::new(),
             open: Vec::new(),
@@ -145,10 +148,13 @@ impl<'a, 'n> Placer<'a, 'n> {
         }
         let layer = self.layer(part, setting);
         let around = setting.insert.as_ref();
+        let row = self.sections.layers.find(&layer);
+        let is_hidden = row.is_some_and(|row| row.is_hidden);
         let item = Item {
             kind,
             shapes,
             colour: self.colour(part, &layer, around),
+            hidden: is_hidden,
             name: None,
             block: around.map(|around| around.block.clone()),
             space: setting.space,
@@ -307,7 +313,7 @@ impl<'a, 'n> Placer<'a, 'n> {
             more => format!(" and {more} more"),
         };
         self.notes.add_whole(format!(
-            "layers that are off or frozen in the file: {names}{more}"
+            "layers that are off or frozen, their curves are hidden: {names}{more}"
         ));
     }
 }

@@ -124,6 +124,7 @@ impl Reader<'_> {
             name: self.name.map(str::to_owned),
             block: None,
             colour: None,
+            hidden: false,
             space: Space::Model,
             at: self.source.line_of(node),
         });

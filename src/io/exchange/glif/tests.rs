@@ -256,6 +256,7 @@ fn what_glif_cannot_hold_is_refused_by_name() {
             name: Some("keel".to_owned()),
             block: None,
             colour: None,
+            hidden: false,
             space: Space::Model,
             at: 1,
         };

@@ -13,6 +13,7 @@ use super::parameters::{Delimiters, Parameters};
 use super::records::Records;
 use super::spending::Spending;
 use super::spline_part::is_finite;
+use crate::geometry::counted;
 use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Shape, Space, Unreadable};
 
 /// Remarks kept: a damaged file would otherwise give one for each of its entities.
@@ -326,6 +327,7 @@ impl<'a> Reader<'a> {
             name: self.links.name(entry, properties),
             block: context.block.clone(),
             colour: self.links.colour(entry),
+            hidden: entry.is_hidden,
             space: self.space(entry, context),
             at: entry.line,
         };
@@ -393,10 +395,8 @@ impl<'a> Reader<'a> {
     fn finish(mut self) -> Drawing {
         let mut remarks = Vec::new();
         if self.hidden > 0 {
-            remarks.push(format!(
-                "{} hidden curves (blank status 01) are kept",
-                self.hidden
-            ));
+            let told = counted(self.hidden, "item is hidden", "items are hidden");
+            remarks.push(format!("{told} (blank status 01)"));
         }
         if self.flat > 0 {
             let count = self.flat;

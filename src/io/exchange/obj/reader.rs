@@ -285,6 +285,7 @@ impl Reader {
             name: self.name.clone(),
             block: None,
             colour: None,
+            hidden: false,
             space: Space::Model,
             at,
         });

@@ -275,6 +275,7 @@ fn sample() -> Drawing {
             name: None,
             block: None,
             colour: None,
+            hidden: false,
             space: Space::Model,
             at: 0,
         })

@@ -213,6 +213,7 @@ impl<'a> Walk<'a, '_> {
                 name: name.clone(),
                 block: placement.block.as_deref().map(str::to_owned),
                 colour: style.colour,
+                hidden: false,
                 space,
                 at: instance.line,
             });

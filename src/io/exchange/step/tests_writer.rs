@@ -17,6 +17,7 @@ fn item(kind: Kind, shape: Shape) -> Item {
         name: None,
         block: None,
         colour: None,
+        hidden: false,
         space: Space::Model,
         at: 0,
     }

@@ -414,6 +414,7 @@ impl<'d> Walk<'d> {
             name: name(node).map(str::to_owned),
             block: outer.block.clone(),
             colour: style.shown(),
+            hidden: false,
             space: Space::Model,
             at: self.source.line_of(node),
         };

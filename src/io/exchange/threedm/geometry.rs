@@ -113,6 +113,11 @@ fn polycurve(shapes: &[Shape]) -> Written {
     }
 }
 
+/// Whether a shape is written as a spline of the same form: an ellipse has no class of its own.
+pub(in crate::io) fn is_spline(shape: &Shape) -> bool {
+    matches!(shape, Shape::Conic(conic) if !is_round(conic))
+}
+
 /// The class and the data of a piece.
 fn plain(shape: &Shape, kind: Kind) -> (u128, Output) {
     let data = Output::default().byte(VERSION);

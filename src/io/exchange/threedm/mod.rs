@@ -28,6 +28,8 @@ mod tests;
 
 use crate::io::exchange::drawing::{Drawing, Unreadable};
 
+pub(in crate::io) use geometry::is_spline;
+
 /// Read a 3DM file.
 pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     table::scene(bytes).map(scene::Scene::drawing)

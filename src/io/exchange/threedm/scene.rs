@@ -10,6 +10,7 @@ use super::curves::{Curve, curve, usable};
 use super::instances::{Definition, Reference, reference};
 use super::layers::Layers;
 use super::objects::Object;
+use crate::geometry::counted;
 use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Shape, Space};
 use crate::io::exchange::spending::most_items;
 
@@ -115,10 +116,7 @@ impl Report {
             ));
         }
         if self.hidden > 0 {
-            remarks.push(format!(
-                "{} hidden curves and points are read too",
-                self.hidden
-            ));
+            remarks.push(counted(self.hidden, "item is hidden", "items are hidden"));
         }
         if self.more_remarks > 0 {
             remarks.push(format!("{} more remarks are left out", self.more_remarks));
@@ -328,9 +326,8 @@ impl Walk<'_, '_> {
         if !report.spend(1, fixed + texts + shapes.iter().map(size).sum::<usize>()) {
             return;
         }
-        if space != Space::Edge && (context.hidden || self.hidden(attributes)) {
-            report.hidden += 1;
-        }
+        let hidden = space != Space::Edge && (context.hidden || self.hidden(attributes));
+        report.hidden += usize::from(hidden);
         report.drawing.items.push(Item {
             kind,
             shapes,
@@ -338,6 +335,7 @@ impl Walk<'_, '_> {
             name: Some(attributes.name.clone()).filter(|name| !name.is_empty()),
             block: context.block.map(str::to_owned),
             colour: self.colour(attributes, context),
+            hidden,
             space,
             at: place(record.at),
         });

@@ -34,18 +34,23 @@ const TABLES: [u32; 11] = [
 const HISTORY: u32 = 0x1000_0026;
 /// The tolerance of the file in millimetres.
 const TOLERANCE: f64 = 1e-3;
-/// Layers have their own colour; black is that of a new layer.
+/// The colour of a new layer: black.
 const LAYER_COLOUR: [u8; 3] = [0; 3];
+
+/// A colour: red, green, blue.
+type Colour = [u8; 3];
 
 /// Write a file.
 pub(super) fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable> {
-    let mut layers = LayerTable::new(name);
+    let mut layers = LayerTable::new(name, layer_colours(&drawing.items));
     let mut records = Output::default();
     for (index, item) in drawing.items.iter().enumerate() {
         let layer = layers.index(&item.group);
+        let is_own = item.colour.is_some() && item.colour != layers.colour(&item.group);
         let written = objects(item).map_err(|reason| refused(index, item, &reason))?;
         for object in written {
-            records = record(records, object, layer, item, layers.ids.next());
+            let attributes = attributes(layer, item, is_own, layers.ids.next());
+            records = record(records, object, &attributes);
         }
     }
     if drawing.items.is_empty() {
@@ -112,18 +117,17 @@ fn units(length: f64) -> Output {
     Output::default().chunk(UNITS, &settings)
 }
 
-fn record(records: Output, written: Written, layer: i32, item: &Item, id: u128) -> Output {
+fn record(records: Output, written: Written, attributes: &Output) -> Output {
     let body = Output::default()
         .short(OBJECT_TYPE, written.kind)
         .append(&written.object)
-        .chunk(OBJECT_ATTRIBUTES, &attributes(layer, item, id))
+        .chunk(OBJECT_ATTRIBUTES, attributes)
         .short(OBJECT_END, 0);
     records.container(OBJECT, &body)
 }
 
-/// The layout 1.0 of attributes.
-fn attributes(layer: i32, item: &Item, id: u128) -> Output {
-    let own = u8::from(item.colour.is_some());
+/// The layout 1.0 of attributes; `is_own` where the colour is not that of the layer.
+fn attributes(layer: i32, item: &Item, is_own: bool, id: u128) -> Output {
     Output::default()
         .byte(0x10)
         .id(id)
@@ -135,7 +139,7 @@ fn attributes(layer: i32, item: &Item, id: u128) -> Output {
         .bytes(&[0; 20])
         .int(1)
         // Shown; the source of the colour; line type and material of the layer.
-        .bytes(&[0, own, 0, 0])
+        .bytes(&[0, u8::from(is_own), 0, 0])
         .text(item.name.as_deref().unwrap_or_default())
         .text("")
 }
@@ -168,42 +172,62 @@ impl Ids {
 /// The layer of what is in no group, as Rhino names it.
 const DEFAULT_LAYER: &str = "Default";
 
+/// The colour of each layer on which all items have one and the same.
+fn layer_colours(items: &[Item]) -> HashMap<&[String], Option<Colour>> {
+    let mut colours = HashMap::new();
+    for item in items {
+        let colour = colours.entry(&item.group[..]).or_insert(item.colour);
+        *colour = colour.filter(|colour| Some(*colour) == item.colour);
+    }
+    colours
+}
+
 /// The layers, in the order of their first use; outer ones before inner ones.
-struct LayerTable {
+struct LayerTable<'d> {
     ids: Ids,
+    colours: HashMap<&'d [String], Option<Colour>>,
     indices: HashMap<Vec<String>, (i32, u128)>,
     records: Output,
 }
 
-impl LayerTable {
+impl<'d> LayerTable<'d> {
     /// The layers of a file with this name.
-    fn new(name: &str) -> Self {
+    fn new(name: &str, colours: HashMap<&'d [String], Option<Colour>>) -> Self {
         Self {
             ids: Ids::new(name),
+            colours,
             indices: HashMap::new(),
             records: Output::default(),
         }
     }
 
+    /// The colour of the layer of a group.
+    fn colour(&self, group: &[String]) -> Option<Colour> {
+        self.colours.get(group).copied().flatten()
+    }
+
     /// The index of the layer of a group.
     fn index(&mut self, group: &[String]) -> i32 {
         if group.is_empty() {
-            return self.layer(&[DEFAULT_LAYER.to_owned()], 0).0;
+            let colour = self.colour(group);
+            return self.layer(&[DEFAULT_LAYER.to_owned()], 0, colour).0;
         }
         let mut found = (0, 0);
         for depth in 1..=group.len() {
-            found = self.layer(group.get(..depth).unwrap_or(group), found.1);
+            let path = group.get(..depth).unwrap_or(group);
+            found = self.layer(path, found.1, self.colour(path));
         }
         found.0
     }
 
-    fn layer(&mut self, path: &[String], parent: u128) -> (i32, u128) {
+    fn layer(&mut self, path: &[String], parent: u128, colour: Option<Colour>) -> (i32, u128) {
         if let Some(found) = self.indices.get(path) {
             return *found;
         }
         let index = i32::try_from(self.indices.len()).unwrap_or(i32::MAX);
         let id = self.ids.next();
-        let data = layer(index, &layer_name(path.last()), id, parent);
+        let colour = colour.unwrap_or(LAYER_COLOUR);
+        let data = layer(index, &layer_name(path.last()), colour, [id, parent]);
         let object = Output::default().object(classes::LAYER, &data, &data);
         self.records = std::mem::take(&mut self.records).container(LAYER, &object);
         self.indices.insert(path.to_vec(), (index, id));
@@ -222,8 +246,8 @@ pub(super) fn layer_name(name: Option<&String>) -> String {
     if refused { format!("_{name}") } else { name }
 }
 
-/// The layout 1.6 of layers, the first with parents.
-fn layer(index: i32, name: &str, id: u128, parent: u128) -> Output {
+/// The layout 1.6 of layers, the first with parents; `ids` are its own and that of its parent.
+fn layer(index: i32, name: &str, colour: Colour, [id, parent]: [u128; 2]) -> Output {
     Output::default()
         .byte(0x16)
         // Shown.
@@ -233,7 +257,7 @@ fn layer(index: i32, name: &str, id: u128, parent: u128) -> Output {
         .int(-1)
         .int(-1)
         .int(0)
-        .colour(LAYER_COLOUR)
+        .colour(colour)
         // A line style that is not used.
         .bytes(&[0; 20])
         .text(name)

@@ -116,9 +116,12 @@ fn layers_give_their_names_and_colours() {
         found,
         expected.map(|(name, colour)| (name.to_owned(), colour))
     );
+    for item in &drawing.items {
+        assert_eq!(item.hidden, item.group == ["far"]);
+    }
     assert_eq!(
         drawing.remarks,
-        ["layers that are off or frozen in the file: far"]
+        ["layers that are off or frozen, their curves are hidden: far"]
     );
 }
 

@@ -116,10 +116,9 @@ fn status_digits_give_space_and_remarks() {
     let spaces: Vec<Space> = drawing.items.iter().map(|item| item.space).collect();
     use Space::{Edge, Model};
     assert_eq!(spaces, [Model, Edge, Edge, Edge, Edge, Model]);
-    assert!(has_remark(
-        &drawing,
-        "1 hidden curves (blank status 01) are kept"
-    ));
+    let hidden: Vec<bool> = drawing.items.iter().map(|item| item.hidden).collect();
+    assert_eq!(hidden, [false, false, false, false, false, true]);
+    assert!(has_remark(&drawing, "1 item is hidden (blank status 01)"));
     assert!(has_remark(&drawing, "1 curves (use flag 05)"));
 }
 

@@ -35,6 +35,7 @@ fn item(kind: Kind, shapes: Vec<Shape>) -> Item {
         name: None,
         block: None,
         colour: None,
+        hidden: false,
         space: Space::Model,
         at: 0,
     }

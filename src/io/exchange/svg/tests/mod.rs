@@ -62,6 +62,7 @@ fn item(shapes: Vec<Shape>) -> Item {
         name: None,
         block: None,
         colour: None,
+        hidden: false,
         space: Space::Model,
         at: 1,
     }

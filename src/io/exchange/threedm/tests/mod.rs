@@ -81,7 +81,9 @@ fn reads_all_versions() {
     for version in VERSIONS {
         let drawing = read(&sample(version).finish()).unwrap();
         assert_eq!(drawing.unit, Some(25.4), "version {version}");
-        assert_eq!(drawing.remarks, ["1 hidden curves and points are read too"]);
+        assert_eq!(drawing.remarks, ["1 item is hidden"]);
+        let hidden = drawing.items.iter().filter(|item| item.hidden);
+        assert_eq!(hidden.count(), 1, "version {version}");
         let [curve, line, circle, point] = drawing.items.as_slice() else {
             panic!("version {version}: {} items", drawing.items.len());
         };

@@ -10,6 +10,7 @@ fn item(kind: Kind, shapes: Vec<Shape>) -> Item {
         name: None,
         block: None,
         colour: Some([10, 20, 30]),
+        hidden: false,
         space: Space::Model,
         at: 0,
     }
