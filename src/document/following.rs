@@ -1,6 +1,6 @@
 //! Matches: which ends follow other curves, and how they are brought there.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -139,10 +139,20 @@ impl Document {
 
     /// Whether a curve is another one, or follows it directly or by others.
     fn follows(&self, curve: CurveId, other: CurveId) -> bool {
-        curve == other
-            || self
-                .sources_of(curve)
-                .any(|source| self.follows(source, other))
+        let mut sources: HashMap<CurveId, Vec<CurveId>> = HashMap::new();
+        for matched in self.matches() {
+            let own = sources.entry(matched.curve).or_default();
+            own.push(matched.source);
+        }
+        let mut open = vec![curve];
+        while let Some(curve) = open.pop() {
+            if curve == other {
+                return true;
+            }
+            // Once is enough, if several follow it.
+            open.extend(sources.remove(&curve).into_iter().flatten());
+        }
+        false
     }
 
     fn sources_of(&self, curve: CurveId) -> impl Iterator<Item = CurveId> + '_ {

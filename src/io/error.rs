@@ -290,6 +290,9 @@ pub enum Problem {
     /// The XML holds something else than tracks and routes.
     #[error("this is not a GPX file: it begins with <{}>", cut(.0))]
     NotGpx(String),
+    /// All points of a list are one.
+    #[error("all {0} points are at one place")]
+    OnePlace(usize),
     /// A GPX file has no track or route of two points.
     #[error("there is no track and no route")]
     NoTrack,

@@ -157,6 +157,7 @@ impl Format {
         let is_binary = bytes.iter().take(TOLD_BY).any(|byte| *byte == 0);
         match draw(bytes) {
             Ok(mut drawing) => {
+                drawing.tell_cut_names();
                 if drawing.is_empty() && drawing.remarks.is_empty() {
                     let none = format!("the {} has no curve and no point", self.name);
                     drawing.remarks.push(none);

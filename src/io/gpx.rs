@@ -3,6 +3,7 @@
 use roxmltree::Node;
 
 use super::error::{Place, Problem, ReadError};
+use super::exchange::short_names::short;
 use super::format::{FileUnit, Format};
 use super::reading::{Reading, Remark};
 use super::table_points::{PointReader, Row};
@@ -104,7 +105,7 @@ impl Path {
         let rows = rows.filter_map(|row| row.map_err(|error| bad.push(error)).ok());
         Self {
             line: source.line_of(path) as usize,
-            name: name.map(str::to_owned),
+            name: name.map(short),
             rows: rows.collect(),
         }
     }

@@ -142,6 +142,7 @@ fn unquoted<'a>(line: &'a str, separator: char) -> Vec<Cow<'a, str>> {
         .delimiter(u8::try_from(separator).unwrap_or(b','))
         .has_headers(false)
         .flexible(true)
+        .buffer_capacity(line.len().max(1))
         .from_reader(line.as_bytes());
     let mut record = StringRecord::new();
     match reader.read_record(&mut record) {

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer, uncounted, upper_first};
 use super::decimals::{Decimals, is_number, measured};
 use super::error::{Place, Problem, ReadError};
+use super::exchange::short_names::short;
 use super::exchange::spending::most_items;
 use super::point_section::{Content, PointSection, Usual};
 use super::reading::{Reading, Remark, Remarks, nameless};
@@ -700,11 +701,19 @@ impl<'a> PointReader<'a> {
             ..
         } = list;
         let repeated = &mut self.repeated;
+        let count = rows.len();
         rows.dedup_by(|row, before| {
             let is_repeated = row.point == before.point;
             repeated.extend(is_repeated.then_some(row.line));
             is_repeated
         });
+        if rows.len() == 1 && count > 1 {
+            let place = Place {
+                line: Some(first),
+                ..Place::reference(number, &name)
+            };
+            return Err(place.problem(Problem::OnePlace(count)));
+        }
         let points: Vec<DVec3> = rows.iter().map(|row| row.point).collect();
         let weights: Option<Vec<f64>> = rows.iter().map(|row| row.weight).collect();
         let list = PointList::new(points).and_then(|list| match weights {
@@ -821,7 +830,7 @@ fn title(line: &str) -> Option<String> {
         .and_then(|line| line.strip_suffix('"'));
     let words: Vec<&str> = inner.unwrap_or(line).split_whitespace().collect();
     let title = words.join(" ");
-    title.contains(char::is_alphabetic).then_some(title)
+    title.contains(char::is_alphabetic).then(|| short(&title))
 }
 
 /// Whether a text above rows is read as their title.

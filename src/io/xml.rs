@@ -99,7 +99,7 @@ impl Source {
         let refuse = |at, what: &str| {
             Err(Unreadable {
                 at: Some(self.line(at)),
-                reason: format!("this XML file has {what}: save it as plain SVG or GLIF once more"),
+                reason: format!("this XML file has {what}: save it once more, or in parts"),
             })
         };
         if let Some(at) = scan.too_deep {

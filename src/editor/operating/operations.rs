@@ -679,8 +679,8 @@ impl Operating<'_> {
         };
         let mut others = made.iter().copied().filter(|id| *id != active);
         let compared = self.view.compared(active);
-        // Copies of a curve are no two solutions.
-        if inputs != Inputs::One
+        // Copies of a curve are no two solutions, nor are curves in the place of several references.
+        if ![Inputs::One, Inputs::References].contains(&inputs)
             && compared.is_none_or(|id| !others.clone().any(|other| other == id))
             && let Some(other) = others.next()
         {

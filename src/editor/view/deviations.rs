@@ -50,9 +50,10 @@ impl View {
 }
 
 impl<'a> Sight<'a> {
-    /// The curve or reference that the active one is compared with.
+    /// The curve or reference that the active one is compared with, while the document has it.
     pub fn compared(self) -> Option<CurveId> {
-        self.view.compared(self.active()?)
+        let compared = self.view.compared(self.active()?)?;
+        self.document().name(compared).map(|_| compared)
     }
 
     /// The deviation of the active curve or reference from what it is compared with; `None` until it is measured, and

@@ -1,5 +1,7 @@
 //! The float polygon of a B-spline on any knots, where it has one.
 
+use glam::DVec4;
+
 use super::nurbs::Nurbs;
 
 use crate::geometry::{BezierPolygon, ClampedPolygon, FloatPolygon, NearestFloat, PolygonError};
@@ -10,9 +12,12 @@ const EVEN: f64 = 1e-12;
 /// A curve whose ends lie this near, in units of its largest coordinate, may be periodic.
 const CLOSED: f64 = 1e-9;
 
-/// What joins with smoothness n − 1 within rounding has no jump of the first derivative above this, in units of the largest
-/// coordinate.
-const SMOOTH: f64 = 1e-6;
+/// What joins with smoothness n − 1 within rounding has no jump of a difference of order r above this times 2^r, in units
+/// of the largest coordinate.
+const SMOOTH: f64 = 1e-8;
+
+/// No chain of more points is looked at: its conversion takes much memory, and nobody edits so many vertices.
+const MOST_OF_CHAIN: usize = 1 << 17;
 
 /// Up to this degree and size a polynomial curve on even clamped knots loses no digits on the way to its float polygon.
 const PLAIN_DEGREE: usize = 3;
@@ -38,7 +43,7 @@ impl Nurbs {
         let segments = (count - 1) as f64 / n as f64;
         let repeated = |knot: usize| ((knot - 1) as f64 / n as f64).floor().clamp(0.0, segments);
         let is_chain = segments.fract() == 0.0 && self.has_knots(segments, repeated);
-        if is_chain && self.joins_smoothly() {
+        if is_chain && count <= MOST_OF_CHAIN && self.joins_smoothly() {
             let make = || BezierPolygon::new(n, self.points().to_vec(), self.owned_weights());
             return self.converted(make, BezierPolygon::nearest_periodic_float, |it| {
                 it.nearest_float()
@@ -71,21 +76,41 @@ impl Nurbs {
         (1..self.knots().len() - 1).all(is_there)
     }
 
-    /// Whether the direction and the speed go on at all joints of Bézier segments, as far as a glance at the points
-    /// beside them tells.
+    /// Whether the derivatives up to n − 1 go on at all joints of Bézier segments, as far as a glance at the points beside
+    /// them tells: in homogeneous coordinates the differences of these are alike at both sides.
     fn joins_smoothly(&self) -> bool {
         let (n, points) = (self.degree(), self.points());
         let mut inner = (n..points.len() - 1).step_by(n);
         let sizes = points.iter().map(|it| it.abs().max_element());
         let size = sizes.fold(0.0, f64::max);
-        n == 1
-            || inner.all(|joint| {
-                let legs = [joint, joint + 1].map(|end| points[end] - points[end - 1]);
-                let weight = |index: usize| self.weights().map_or(1.0, |it| it[index]);
-                let [before, after] = [weight(joint - 1), weight(joint + 1)];
-                let jump = after * legs[1] - before * legs[0];
-                jump.length() <= SMOOTH * size * before.max(after)
+        let homogeneous = |index: usize| {
+            let weight = self.weights().map_or(1.0, |it| it[index]);
+            (weight * points[index]).extend(size * weight)
+        };
+        inner.all(|joint| {
+            let mut sides = [
+                (0..n)
+                    .map(|it| homogeneous(joint - it))
+                    .collect::<Vec<DVec4>>(),
+                (0..n)
+                    .map(|it| homogeneous(joint + it))
+                    .collect::<Vec<DVec4>>(),
+            ];
+            let weights = sides.iter().flatten().map(|it| it.w);
+            // The last coordinate is the weight times the size.
+            let largest = weights.fold(0.0, f64::max);
+            (1..n).all(|order| {
+                for side in &mut sides {
+                    for index in 0..n - order {
+                        side[index] = side[index + 1] - side[index];
+                    }
+                }
+                // Against the parameter odd differences change their sign.
+                let sign = if order % 2 == 0 { 1.0 } else { -1.0 };
+                let jump = sides[1][0] - sign * sides[0][0];
+                jump.length() <= SMOOTH * largest * (1_u64 << order) as f64
             })
+        })
     }
 
     /// The curve on even knots, whose points are the float vertices.

@@ -351,6 +351,13 @@ impl Shape {
 }
 
 impl Conic {
+    /// Whether it has numbers of a curve: no half-axis is 0, and it goes forward.
+    pub fn is_curve(&self) -> bool {
+        let Self { centre, x, y, .. } = self;
+        let is_finite = [centre, x, y].iter().all(|it| it.is_finite());
+        is_finite && x.cross(*y) != DVec3::ZERO && self.from < self.to
+    }
+
     /// Whether it closes.
     pub fn is_whole(&self) -> bool {
         self.to - self.from >= TAU - WHOLE

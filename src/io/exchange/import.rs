@@ -8,7 +8,7 @@ use thiserror::Error;
 use super::choice::free_space;
 pub use super::choice::{ImportChoice, RowKey};
 use super::drawing::{Drawing, Item, Kind, Other, Shape, Space};
-use super::reading::Made;
+use super::pieces::is_finite;
 use super::single_points::{SinglePoint, lists};
 use super::splines::outermost;
 use crate::geometry::expressions::LengthUnit;
@@ -138,15 +138,14 @@ impl FoundRow {
                 self.add_spline(&nurbs);
                 continue;
             }
-            let is_made = || Made::of(shape).is_ok();
             match shape {
                 Shape::Point(point) => widen(&mut self.bounds, *point),
-                Shape::Conic(conic) if is_made() => {
+                Shape::Conic(conic) if conic.is_curve() => {
                     self.references += 1;
                     self.smooth += 1;
                     outermost(conic).for_each(|it| widen(&mut self.bounds, it));
                 }
-                Shape::Polyline { points, .. } if is_made() => {
+                Shape::Polyline { points, .. } if points.len() > 1 && is_finite(shape) => {
                     self.references += 1;
                     points.iter().for_each(|it| widen(&mut self.bounds, *it));
                 }
@@ -182,12 +181,12 @@ impl Drawing {
     /// List what is in the drawing by layer and kind.
     pub fn found(&self) -> Found {
         let mut rows: Vec<FoundRow> = Vec::new();
-        let mut places: HashMap<RowKey, usize> = HashMap::new();
+        let mut places: HashMap<(Space, &[String], Kind), usize> = HashMap::new();
         let mut points: HashMap<usize, Vec<SinglePoint>> = HashMap::new();
         for item in &self.items {
-            let key = RowKey::of(item);
-            let place = *places.entry(key.clone()).or_insert_with(|| {
-                rows.push(FoundRow::new(key));
+            let key = (item.space, &item.group[..], item.kind);
+            let place = *places.entry(key).or_insert_with(|| {
+                rows.push(FoundRow::new(RowKey::of(item)));
                 rows.len() - 1
             });
             if let Some(row) = rows.get_mut(place) {

@@ -19,6 +19,7 @@ mod obj;
 mod pieces;
 mod reading;
 mod remarks;
+pub(super) mod short_names;
 mod single_points;
 pub(super) mod spending;
 mod spline_part;

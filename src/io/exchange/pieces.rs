@@ -155,12 +155,17 @@ impl Pieces {
     fn finish_run(&mut self) {
         match std::mem::replace(&mut self.run, Run::None) {
             Run::None => {}
-            Run::Lines(points) => self.shapes.push(Shape::Polyline {
-                points,
-                closed: false,
-            }),
+            Run::Lines(mut points) => {
+                points.shrink_to_fit();
+                self.shapes.push(Shape::Polyline {
+                    points,
+                    closed: false,
+                });
+            }
             Run::Spline(mut nurbs) => {
                 nurbs.knots.extend(nurbs.knots.last().copied());
+                nurbs.points.shrink_to_fit();
+                nurbs.knots.shrink_to_fit();
                 self.shapes.push(Shape::Nurbs(nurbs));
             }
         }

@@ -3,6 +3,9 @@
 /// The most remarks that are kept; nobody reads more, and each takes memory.
 const LIMIT: usize = 1000;
 
+/// The letters of the longest remark.
+const LONGEST: usize = 1000;
+
 /// The remarks of a reader; those above a limit are only counted.
 #[derive(Debug, Default)]
 pub(super) struct Remarks {
@@ -10,11 +13,26 @@ pub(super) struct Remarks {
     more: usize,
 }
 
+/// Cut a remark that is too long: it may name what the file holds.
+pub(super) fn shortened(mut remark: String) -> String {
+    if let Some((end, _)) = remark.char_indices().nth(LONGEST) {
+        remark.truncate(end);
+        remark.push('…');
+        remark.shrink_to_fit();
+    }
+    remark
+}
+
 impl Remarks {
+    /// Whether more remarks are only counted.
+    pub(super) fn are_full(&self) -> bool {
+        self.kept.len() >= LIMIT
+    }
+
     /// Add a remark.
     pub(super) fn add(&mut self, remark: String) {
-        if self.kept.len() < LIMIT {
-            self.kept.push(remark);
+        if !self.are_full() {
+            self.kept.push(shortened(remark));
         } else {
             self.more += 1;
         }

@@ -8,9 +8,11 @@ use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, Seq
 use serde_json::value::RawValue;
 
 use super::super::remarks::Remarks;
+use super::super::spending::Spending;
 use super::super::splines::{checked, clamped_knots};
 use super::units::UNITS;
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Space, Unreadable};
+use crate::io::exchange::short_names::{short, short_path};
 
 /// Read all curves.
 pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
@@ -23,6 +25,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         text,
         drawing: Drawing::default(),
         remarks: Remarks::default(),
+        spending: Spending::of_file(text.len()),
+        is_full: false,
         line: (0, 1),
     };
     let mut parser = serde_json::Deserializer::from_str(text);
@@ -50,6 +54,9 @@ struct File<'d> {
     text: &'d str,
     drawing: Drawing,
     remarks: Remarks,
+    spending: Spending,
+    /// Whether there is no room for more curves.
+    is_full: bool,
     /// The last position that was asked for, and its line.
     line: (usize, u64),
 }
@@ -70,14 +77,20 @@ impl<'d> File<'d> {
 
     fn curve(&mut self, text: &'d str) {
         let line = self.line_of(text);
-        let curve = serde_json::from_str::<Curve>(text).map_err(|it| it.to_string());
+        let is_told = !self.remarks.are_full();
+        let told = |error: serde_json::Error| match is_told {
+            true => error.to_string(),
+            false => String::new(),
+        };
+        let curve = serde_json::from_str::<Curve>(text).map_err(told);
         let result = curve.and_then(|curve| {
-            let name = curve.name.clone();
+            let name = curve.name.as_deref().map(short);
             let group = curve.group.clone().map(Group::path).unwrap_or_default();
+            let group = short_path(group.iter().map(String::as_str));
             Ok((name, group, curve.spline()?))
         });
         match result {
-            Ok((name, group, spline)) => self.drawing.items.push(Item {
+            Ok((name, group, spline)) => self.add(Item {
                 kind: Kind::Spline,
                 shapes: vec![Shape::Nurbs(spline)],
                 group,
@@ -92,6 +105,23 @@ impl<'d> File<'d> {
                 .remarks
                 .add(format!("line {line}: a curve is skipped: {reason}")),
         }
+    }
+
+    /// Add an item, if there is room.
+    fn add(&mut self, item: Item) {
+        item.shapes
+            .iter()
+            .for_each(|it| self.spending.keep_shape(it));
+        if self.spending.keep(&item) {
+            self.drawing.items.push(item);
+            return;
+        }
+        if !self.is_full {
+            let reason = self.spending.reason();
+            let told = format!("line {}: the rest is left out: {reason}", item.at);
+            self.remarks.add(told);
+        }
+        self.is_full = true;
     }
 
     fn unit(&mut self, text: &'d str) {

@@ -10,9 +10,7 @@ use super::groups::Groups;
 use super::notes::Notes;
 use super::parts::{Content, Insert, Part, Parts};
 use super::sections::Sections;
-use crate::io::exchange::drawing::{
-    Affine, Conic, Drawing, Item, Kind, Nurbs, Other, Shape, Space,
-};
+use crate::io::exchange::drawing::{Affine, Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
 use crate::io::exchange::spending::most_items;
 
 /// The deepest nesting of blocks.
@@ -292,9 +290,12 @@ impl<'a, 'n> Placer<'a, 'n> {
             other.count = other.count.saturating_add(1);
             return;
         }
-        self.others.insert(name.to_owned(), others.len());
-        let kind = name.to_owned();
-        others.push(Other { kind, count: 1, at });
+        let known = self.drawing.other.len();
+        self.drawing.count_other(name, at);
+        // Of too many kinds the rest has one row.
+        if self.drawing.other.len() > known {
+            self.others.insert(name.to_owned(), known);
+        }
     }
 
     fn note_hidden(&mut self) {

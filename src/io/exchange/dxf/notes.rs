@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::groups::Trouble;
+use crate::io::exchange::remarks::shortened;
 
 /// The most remarks that are kept. A file with more is damaged as a whole: the rest is counted.
 const MOST: usize = 1000;
@@ -36,7 +37,8 @@ impl Notes {
             return;
         }
         let unit = self.unit();
-        self.remarks.push(format!("{unit} {at}: {remark}"));
+        self.remarks
+            .push(shortened(format!("{unit} {at}: {remark}")));
     }
 
     /// Remark on an entity at most once, however often its block is inserted.

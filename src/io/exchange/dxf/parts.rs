@@ -13,6 +13,7 @@ use super::polylines::{Corner, heavy, is_mesh, vertex};
 use super::records::{Record, Records};
 use super::sections::Sections;
 use crate::io::exchange::drawing::{Affine, Kind, Shape};
+use crate::io::exchange::short_names::short;
 
 /// What is no entity of its own.
 const MARKS: [&str; 8] = [
@@ -116,7 +117,7 @@ impl<'a, 's> Parts<'a, 's> {
             return self.insert(record, notes);
         }
         let curve = curve(record, notes)?;
-        let other = || Content::Other(record.name.to_owned());
+        let other = || Content::Other(short(record.name));
         Ok(curve.map_or_else(other, |(kind, shapes)| Content::Curve(kind, shapes)))
     }
 

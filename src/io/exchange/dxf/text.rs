@@ -3,6 +3,7 @@
 use encoding_rs::{BIG5, EUC_KR, Encoding, GBK, SHIFT_JIS, UTF_8, WINDOWS_1252};
 
 use super::code_pages;
+use crate::io::exchange::short_names::{beginning, short};
 
 /// The first version whose text is UTF-8 (AutoCAD 2007).
 const FIRST_UTF_8: &[u8] = b"AC1021";
@@ -47,16 +48,16 @@ impl Decoder {
         (decoder, remark.filter(|_| !decoder.prefers_utf_8))
     }
 
-    /// Read a string.
+    /// Read a name.
     pub fn decode(&self, bytes: &[u8]) -> String {
+        let bytes = beginning(bytes);
         let plain = match std::str::from_utf8(bytes) {
             Ok(text) if self.prefers_utf_8 || text.is_ascii() => text.to_owned(),
             _ => decode(self.page, bytes),
         };
-        if plain.contains('\\') {
-            unescaped(&plain)
-        } else {
-            plain
+        match plain.contains('\\') {
+            true => short(&unescaped(&plain)),
+            false => short(&plain),
         }
     }
 }

@@ -6,6 +6,7 @@ use roxmltree::{Document, Node, NodeId};
 use super::super::pieces::Pieces;
 use super::super::remarks::Remarks;
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Space, Unreadable};
+use crate::io::exchange::short_names::short;
 use crate::io::xml::Source;
 
 /// Read the contours of a glyph. Returns also the element that each item comes from.
@@ -121,7 +122,7 @@ impl Reader<'_> {
             kind: Kind::Path,
             shapes,
             group: Vec::new(),
-            name: self.name.map(str::to_owned),
+            name: self.name.map(short),
             block: None,
             colour: None,
             hidden: false,

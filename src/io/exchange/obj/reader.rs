@@ -6,9 +6,13 @@ use super::super::remarks::Remarks;
 use super::curves::Curve;
 use super::words::{DEFAULT_GROUP, UNIT};
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Shape, Space, Unreadable};
+use crate::io::exchange::short_names::{short, short_path};
 
 /// The most items. Points take two bytes of the file each, but a hundred times as much memory.
 const ITEM_LIMIT: usize = 500_000;
+
+/// So many bytes of names count as an item: a file gives a name once to all that follows.
+const NAME_BYTES: usize = 64;
 
 /// Read a file.
 pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
@@ -65,6 +69,8 @@ struct Reader {
     basis: Option<(String, bool)>,
     degree: Option<usize>,
     open: Option<Open>,
+    /// The items so far, with their names.
+    spent: usize,
     /// Whether the items are too many.
     full: bool,
 }
@@ -107,7 +113,7 @@ impl Reader {
     fn known_statement(&mut self, word: &str, rest: &str) -> Result<bool, String> {
         match word {
             "v" => self.vertices.push(vertex(rest)?),
-            "o" => self.name = Some(rest.to_owned()).filter(|it| !it.is_empty()),
+            "o" => self.name = Some(short(rest)).filter(|it| !it.is_empty()),
             "g" => self.group = group(rest),
             "cstype" => self.basis = Some(basis(rest)),
             "deg" => self.degree = Some(number(rest.split_whitespace().next())?),
@@ -269,11 +275,15 @@ impl Reader {
     }
 
     fn push(&mut self, kind: Kind, shape: Shape, at: u64) {
-        if self.drawing.items.len() >= ITEM_LIMIT {
+        let names = self.group.iter().chain(&self.name);
+        let names: usize = names.map(|it| size_of::<String>() + it.len()).sum();
+        self.spent += 1 + names / NAME_BYTES;
+        if self.spent > ITEM_LIMIT {
             if !self.full {
-                self.remark(
-                    "the rest of the file is skipped: it has more than 500000 curves and points",
-                );
+                let count = self.drawing.items.len();
+                self.remark(&format!(
+                    "the rest of the file is skipped: it has more than {count} curves and points"
+                ));
             }
             self.full = true;
             return;
@@ -315,16 +325,13 @@ pub(super) fn group(rest: &str) -> Vec<String> {
         return Vec::new();
     }
     let names = rest.split('/').map(str::trim).filter(|it| !it.is_empty());
-    names.map(str::to_owned).collect()
+    short_path(names)
 }
 
 fn basis(rest: &str) -> (String, bool) {
     let is_rational = rest.split_whitespace().next() == Some("rat");
     (
-        rest.split_whitespace()
-            .last()
-            .unwrap_or_default()
-            .to_owned(),
+        short(rest.split_whitespace().last().unwrap_or_default()),
         is_rational,
     )
 }

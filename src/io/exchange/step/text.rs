@@ -5,6 +5,8 @@ use encoding_rs::{
     WINDOWS_1252, WINDOWS_1254,
 };
 
+use crate::io::exchange::short_names::{LONGEST, beginning, short};
+
 /// The pages A to I of `\P…\`: ISO 8859-1 to 8859-9. From 0xA0 the Windows pages are the same as the first
 /// and last.
 const PAGES: [&Encoding; 9] = [
@@ -19,8 +21,9 @@ const PAGES: [&Encoding; 9] = [
     WINDOWS_1254,
 ];
 
-/// Decode the characters between two quotes.
+/// Decode a name: the characters between two quotes.
 pub fn decode(raw: &[u8]) -> String {
+    let raw = beginning(raw);
     let text = match std::str::from_utf8(raw) {
         Ok(text) => text.to_owned(),
         Err(_) => raw.iter().map(|byte| char::from(*byte)).collect(),
@@ -28,7 +31,9 @@ pub fn decode(raw: &[u8]) -> String {
     let mut out = String::with_capacity(text.len());
     let mut rest = text.as_str();
     let mut page = 0;
-    while let Some(head) = rest.chars().next() {
+    let mut letters = 0;
+    while let Some(head) = rest.chars().next().filter(|_| letters <= LONGEST) {
+        letters += 1;
         let (piece, tail) = match head {
             '\'' => (
                 "'".to_owned(),
@@ -41,7 +46,7 @@ pub fn decode(raw: &[u8]) -> String {
         out.push_str(&piece);
         rest = tail;
     }
-    out
+    short(&out)
 }
 
 /// Encode a text, without its quotes.

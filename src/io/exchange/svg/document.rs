@@ -13,6 +13,7 @@ use super::style::{Sheet, Style};
 use super::transforms::{fit, matrix, transform};
 use super::{paths, shapes};
 use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Space, Unreadable};
+use crate::io::exchange::short_names::short;
 use crate::io::exchange::spending::most_items;
 use crate::io::xml::Source;
 
@@ -22,12 +23,21 @@ const DEPTH_LIMIT: usize = 64;
 /// point.
 const COST: usize = 400_000;
 
-/// The memory for the tree and the items of a file of up to 11 MB; larger files get twenty times their size.
-const MEMORY: usize = 220 << 20;
+/// The cost of an element that is used again.
+const USED: usize = 4;
+
+/// So many nodes inside an element cost as much as an element.
+const NODES: usize = 16;
+
+/// The memory for the tree and the items of a file of up to 11 MB; larger files get eleven times their size.
+const MEMORY: usize = 120 << 20;
 
 /// The memory for the items of a small file, and for those that each byte of a file may bring.
 const OF_SMALL: usize = 64 << 20;
 const OF_BYTE: usize = 20;
+
+/// The memory for a point of a path, with what it takes while a long path is read.
+const OF_POINT: usize = 42;
 
 /// Where an item of a drawing comes from.
 #[derive(Clone)]
@@ -172,7 +182,7 @@ impl<'d> Walk<'d> {
             budget: COST + size / 2,
             room: Room {
                 memory: MEMORY
-                    .max(size.saturating_mul(20))
+                    .max(size.saturating_mul(11))
                     .saturating_sub(source.tree_size())
                     .min(OF_SMALL.saturating_add(size.saturating_mul(OF_BYTE))),
                 items: most_items(size),
@@ -202,11 +212,14 @@ impl<'d> Walk<'d> {
     }
 
     fn children(&mut self, node: Node<'d, 'd>, frame: &Frame) {
-        for child in node.children().filter(Node::is_element) {
-            if self.full {
+        for (child, number) in node.children().zip(1..) {
+            // Texts and comments that are used again and again cost time too.
+            if self.full || (number % NODES == 0 && !self.spend_some(node, 1)) {
                 return;
             }
-            self.element(child, frame);
+            if child.is_element() {
+                self.element(child, frame);
+            }
         }
     }
 
@@ -233,14 +246,22 @@ impl<'d> Walk<'d> {
                     self.shape(node, outer, style);
                 }
             }
-            _ => self.drawing.count_other(name, self.source.line_of(node)),
+            _ => self
+                .drawing
+                .count_other(&short(name), self.source.line_of(node)),
         }
     }
 
     /// Pay for an element.
     fn spend(&mut self, node: Node) -> bool {
         let attributes: usize = node.attributes().map(|it| it.value().len()).sum();
-        match self.budget.checked_sub(1 + attributes / 4) {
+        // Empty elements that are used again and again cost time alone.
+        let own = if self.used.is_empty() { 1 } else { USED };
+        self.spend_some(node, own + attributes / 4)
+    }
+
+    fn spend_some(&mut self, node: Node, cost: usize) -> bool {
+        match self.budget.checked_sub(cost) {
             Some(rest) if !self.full => {
                 self.budget = rest;
                 true
@@ -380,7 +401,7 @@ impl<'d> Walk<'d> {
         }
         let mut inner = frame.clone();
         inner.place = inner.place.of(&corner(node, frame));
-        inner.block = Some(id.to_owned());
+        inner.block = Some(short(id));
         self.used.push(target.id());
         self.target(node, target, inner);
         self.used.pop();
@@ -411,7 +432,7 @@ impl<'d> Walk<'d> {
             kind: Kind::Path,
             shapes: Vec::new(),
             group: outer.group.clone(),
-            name: name(node).map(str::to_owned),
+            name: name(node).map(short),
             block: outer.block.clone(),
             colour: style.shown(),
             hidden: false,
@@ -420,12 +441,14 @@ impl<'d> Walk<'d> {
         };
         let items = std::mem::take(&mut self.drawing.items);
         let (place, before) = (self.placed(node, outer), items.len());
-        let mut is_whole = true;
+        let (mut is_whole, mut is_full) = (true, false);
         let mut maker = Maker::new(place, item, items, self.room);
         if node.tag_name().name() == "path" {
             let data = node.attribute("d").unwrap_or_default();
-            let outcome = paths::read(data, &mut |shapes| maker.take(shapes));
-            is_whole = outcome.error.is_none();
+            let most_points = self.room.memory / OF_POINT;
+            let outcome = paths::read(data, most_points, &mut |shapes| maker.take(shapes));
+            is_whole = outcome.error.is_none() && !outcome.is_full;
+            is_full = outcome.is_full;
             self.report_path(node, &outcome);
         } else {
             match shapes::shape(node, outer.viewport) {
@@ -446,7 +469,7 @@ impl<'d> Walk<'d> {
                 "it is skipped because its coordinates are beyond all numbers",
             );
         }
-        let full = maker.is_full();
+        let full = is_full || maker.is_full();
         self.room = maker.room;
         self.drawing.items = maker.items;
         self.drawn += 1;
@@ -485,7 +508,8 @@ impl<'d> Walk<'d> {
     fn remark(&mut self, node: Node, text: &str) {
         let line = self.source.line_of(node);
         let element = node.tag_name().name();
-        let name = name(node).map(|it| format!(" “{it}”")).unwrap_or_default();
+        let name = name(node).map(short);
+        let name = name.map(|it| format!(" “{it}”")).unwrap_or_default();
         self.remarks
             .add(format!("line {line}: <{element}>{name}: {text}"));
     }

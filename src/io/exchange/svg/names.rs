@@ -3,11 +3,16 @@
 use roxmltree::Node;
 
 use super::namespaces::{INKSCAPE, SVG};
+use crate::io::exchange::short_names::short;
+
+/// A title is the first child, but for comments and blanks.
+const FIRST: usize = 32;
 
 /// The name of an element: Inkscape's label, its title, or its identifier.
 pub(super) fn name<'d>(node: Node<'d, 'd>) -> Option<&'d str> {
     let title = || {
-        let title = node.children().find(|it| it.has_tag_name((SVG, "title")))?;
+        let mut first = node.children().take(FIRST);
+        let title = first.find(|it| it.has_tag_name((SVG, "title")))?;
         title.text()
     };
     let label = node.attribute((INKSCAPE, "label"));
@@ -26,7 +31,7 @@ pub(super) fn group_name(node: Node) -> Option<String> {
         .strip_prefix('g')
         .is_some_and(|it| it.bytes().all(|it| it.is_ascii_digit() || it == b'-'));
     let is_layer = node.attribute((INKSCAPE, "groupmode")) == Some("layer");
-    (is_layer || !numbered).then(|| without_escapes(name))
+    (is_layer || !numbered).then(|| short(&without_escapes(&short(name))))
 }
 
 /// Undo Illustrator's escapes: `_x0020_` is a space.

@@ -14,23 +14,32 @@ pub(super) struct Outcome {
     pub(super) error: Option<svgtypes::Error>,
     /// How many subpaths were no more than a point.
     pub(super) empty: usize,
+    /// Whether there was no room for all points.
+    pub(super) is_full: bool,
 }
 
 /// Read the data of a path up to its first error, giving the pieces of each subpath; stop where it is
-/// refused.
-pub(super) fn read(data: &str, take: &mut dyn FnMut(Vec<Shape>) -> bool) -> Outcome {
-    walk(data, take, &mut |_| {})
+/// refused, or where a subpath has too many points.
+pub(super) fn read(
+    data: &str,
+    most_points: usize,
+    take: &mut dyn FnMut(Vec<Shape>) -> bool,
+) -> Outcome {
+    walk(data, most_points, take, &mut |_| {})
 }
 
 /// Read where each `M` and `m` of the data leads.
 pub(super) fn starts(data: &str) -> Vec<DVec3> {
     let mut starts = Vec::new();
-    walk(data, &mut |_| true, &mut |start| starts.push(start));
+    walk(data, usize::MAX, &mut |_| true, &mut |start| {
+        starts.push(start);
+    });
     starts
 }
 
 fn walk(
     data: &str,
+    most_points: usize,
     take: &mut dyn FnMut(Vec<Shape>) -> bool,
     moved: &mut dyn FnMut(DVec3),
 ) -> Outcome {
@@ -44,6 +53,9 @@ fn walk(
         take,
         moved,
         refused: false,
+        most_points,
+        points: 0,
+        last: 0,
     };
     for segment in PathParser::from(data) {
         match segment {
@@ -53,7 +65,10 @@ fn walk(
                 break;
             }
         }
-        if pen.refused {
+        if pen.points > pen.most_points {
+            pen.outcome.is_full = true;
+        }
+        if pen.refused || pen.outcome.is_full {
             break;
         }
     }
@@ -76,12 +91,27 @@ struct Pen<'t> {
     /// Called with the start of each subpath that a command begins.
     moved: &'t mut dyn FnMut(DVec3),
     refused: bool,
+    /// How many points a subpath may have.
+    most_points: usize,
+    /// How many it has, about.
+    points: usize,
+    /// How many the last segment had.
+    last: usize,
 }
+
+/// The memory of a piece, in points.
+const PIECE: usize = 12;
 
 impl Pen<'_> {
     fn draw(&mut self, segment: PathSegment) {
         let cubic = self.cubic.take();
         let quadratic = self.quadratic.take();
+        let points = points_of(&segment);
+        // Segments of another kind begin another piece.
+        if std::mem::replace(&mut self.last, points) != points {
+            self.points += PIECE;
+        }
+        self.points += points;
         match segment {
             PathSegment::MoveTo { abs, x, y } => self.move_to(self.point(abs, x, y)),
             PathSegment::LineTo { abs, x, y } => self.line(self.point(abs, x, y)),
@@ -203,6 +233,20 @@ impl Pen<'_> {
             Some(pieces) => self.refused |= !(self.take)(pieces.finish()),
             None => {}
         }
+        self.points = 0;
+    }
+}
+
+/// How many points the memory of a segment takes.
+fn points_of(segment: &PathSegment) -> usize {
+    match segment {
+        PathSegment::MoveTo { .. } | PathSegment::ClosePath { .. } => 0,
+        PathSegment::LineTo { .. }
+        | PathSegment::HorizontalLineTo { .. }
+        | PathSegment::VerticalLineTo { .. } => 1,
+        PathSegment::Quadratic { .. } | PathSegment::SmoothQuadratic { .. } => 2,
+        PathSegment::CurveTo { .. } | PathSegment::SmoothCurveTo { .. } => 3,
+        PathSegment::EllipticalArc { .. } => size_of::<Shape>().div_ceil(size_of::<DVec3>()),
     }
 }
 

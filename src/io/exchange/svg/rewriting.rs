@@ -291,7 +291,7 @@ fn local(node: Node, placed: &Placed) -> Vec<Vec<Shape>> {
     }
     let mut subpaths = Vec::new();
     let data = node.attribute("d").unwrap_or_default();
-    paths::read(data, &mut |shapes| {
+    paths::read(data, usize::MAX, &mut |shapes| {
         subpaths.push(shapes);
         true
     });
@@ -329,7 +329,7 @@ impl<'c> Chunks<'c> {
             let &[from, to] = mark else { return None };
             let part = data.get(from..to)?;
             let mut count = 0;
-            paths::read(part, &mut |_| {
+            paths::read(part, usize::MAX, &mut |_| {
                 count += 1;
                 true
             });

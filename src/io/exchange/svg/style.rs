@@ -9,6 +9,12 @@ use roxmltree::Node;
 /// The properties that count.
 const PROPERTIES: [&str; 5] = ["stroke", "fill", "color", "display", "visibility"];
 
+/// The bytes of the longest value that is kept.
+const LONGEST_VALUE: usize = 128;
+
+/// The bytes of the longest selector that is looked at.
+const LONGEST_SELECTOR: usize = 1000;
+
 /// What an element inherits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Style {
@@ -56,13 +62,15 @@ impl Style {
                 self.set(name, value);
             }
         }
-        let classes = node.attribute("class").unwrap_or_default();
-        let classes = classes.split_ascii_whitespace().map(|it| format!(".{it}"));
-        let id = node.attribute("id").map(|it| format!("#{it}"));
-        let selectors = std::iter::once(node.tag_name().name().to_owned());
         if !sheet.rules.is_empty() {
-            for selector in selectors.chain(classes).chain(id) {
-                for (name, value) in sheet.rules.get(&selector).into_iter().flatten() {
+            let classes = node.attribute("class").unwrap_or_default();
+            let classes = classes.split_ascii_whitespace().map(|it| (".", it));
+            let id = node.attribute("id").map(|it| ("#", it));
+            let selectors = std::iter::once(("", node.tag_name().name()));
+            let selectors = selectors.chain(classes).chain(id);
+            for (mark, name) in selectors.filter(|(_, name)| name.len() < LONGEST_SELECTOR) {
+                let rules = sheet.rules.get(&[mark, name].concat());
+                for (name, value) in rules.into_iter().flatten() {
                     self.set(name, value);
                 }
             }
@@ -110,7 +118,9 @@ impl Sheet {
                 declare(&mut known, name, value);
             }
             for selector in selectors.split(',').map(str::trim) {
-                if selector.contains(|it: char| it.is_whitespace() || "@:[>+~*".contains(it)) {
+                let is_combined =
+                    selector.contains(|it: char| it.is_whitespace() || "@:[>+~*".contains(it));
+                if is_combined || selector.len() > LONGEST_SELECTOR {
                     continue;
                 }
                 let rules = self.rules.entry(selector.to_owned()).or_default();
@@ -124,6 +134,12 @@ impl Sheet {
 
 /// Add a declaration in the place of an earlier one of its name, so that no selector has more than a few.
 fn declare(rules: &mut Vec<(String, String)>, name: &str, value: &str) {
+    // No colour is so long.
+    let value = if value.len() > LONGEST_VALUE {
+        ""
+    } else {
+        value
+    };
     let changes_nothing = value == "inherit" || (name == "color" && rgb(value).is_none());
     if !changes_nothing {
         rules.retain(|(known, _)| known != name);

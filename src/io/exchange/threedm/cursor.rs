@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::io::exchange::short_names::{beginning, short};
+
 /// A place in the bytes of a chunk.
 #[derive(Clone, Copy)]
 pub(super) struct Cursor<'a> {
@@ -114,18 +116,18 @@ impl<'a> Cursor<'a> {
         (0..count).map(|_| self.id()).collect()
     }
 
-    /// Read a string of UTF-16 units, the last of them 0.
+    /// Read a name of UTF-16 units, the last of them 0.
     pub(super) fn text(&mut self) -> Result<String, String> {
         let count = self.count(2)?;
         let bytes = self.bytes(count.saturating_mul(2))?;
-        let units: Vec<u16> = bytes
+        let units: Vec<u16> = beginning(bytes)
             .as_chunks::<2>()
             .0
             .iter()
             .map(|&unit| u16::from_le_bytes(unit))
             .take_while(|&unit| unit != 0)
             .collect();
-        Ok(String::from_utf16_lossy(&units))
+        Ok(short(&String::from_utf16_lossy(&units)))
     }
 
     /// Read a colour: red, green, blue and transparency; `None` if it is unset.

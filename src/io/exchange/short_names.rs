@@ -1,0 +1,98 @@
+//! Names of a usual length: a file may repeat a name of megabytes for each of its curves.
+
+use super::drawing::Drawing;
+
+/// The letters of the longest name that is kept: AutoCAD allows as many.
+pub(super) const LONGEST: usize = 255;
+
+/// The most groups of a path that are kept.
+const DEEPEST: usize = 64;
+
+/// Letters take up to so many bytes in any coding, with their escapes.
+const LETTER: usize = 16;
+
+/// What stands for the rest of a longer name.
+const REST: char = '…';
+
+/// Cut a name that is too long.
+pub(in crate::io) fn short(name: &str) -> String {
+    match name.char_indices().nth(LONGEST) {
+        None => name.to_owned(),
+        Some((end, _)) => [&name[..end], REST.encode_utf8(&mut [0; 4])].concat(),
+    }
+}
+
+/// Cut the names of the path of a group, and the path itself.
+pub(super) fn short_path<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+    let mut names = names.into_iter();
+    let mut path: Vec<String> = names.by_ref().take(DEEPEST).map(short).collect();
+    path.extend(names.next().map(|_| REST.to_string()));
+    path
+}
+
+/// The first bytes of a coded name, which are more than the letters that are kept. UTF-8 is cut between letters.
+pub(super) fn beginning(bytes: &[u8]) -> &[u8] {
+    let Some(mut bytes) = bytes.get(..LONGEST * LETTER) else {
+        return bytes;
+    };
+    while let [rest @ .., last] = bytes {
+        match last {
+            0x80..0xc0 => bytes = rest,
+            0xc0.. => return rest,
+            _ => return bytes,
+        }
+    }
+    bytes
+}
+
+fn is_cut(name: &str) -> bool {
+    name.len() > LONGEST && name.ends_with(REST) && name.chars().count() == LONGEST + 1
+}
+
+fn is_cut_path(path: &[String]) -> bool {
+    path.len() > DEEPEST && path.last().is_some_and(|it| it.chars().eq([REST]))
+}
+
+impl Drawing {
+    /// Tell whether names were cut.
+    pub(in crate::io) fn tell_cut_names(&mut self) {
+        let mut names = self.items.iter().flat_map(|item| {
+            let names = item.group.iter().chain(&item.name).chain(&item.block);
+            names.map(String::as_str)
+        });
+        if names.any(is_cut) {
+            let told = format!("names of more than {LONGEST} letters are cut");
+            self.remarks.push(told);
+        }
+        if self.items.iter().any(|item| is_cut_path(&item.group)) {
+            let told = format!("paths of more than {DEEPEST} groups are cut");
+            self.remarks.push(told);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_cut_behind_a_letter() {
+        assert_eq!(short("Keel"), "Keel");
+        let longest = "ü".repeat(LONGEST);
+        assert_eq!(short(&longest), longest);
+        assert!(!is_cut(&longest));
+        let cut = short(&"ü".repeat(9999));
+        assert_eq!(cut, longest + "…");
+        assert!(is_cut(&cut));
+        assert_eq!(beginning(&[7; 99_999]).len(), LONGEST * LETTER);
+        assert_eq!(beginning(&[7; 9]), [7; 9]);
+        let text = format!("a{}", "ü".repeat(9999));
+        let bytes = beginning(text.as_bytes());
+        assert_eq!(bytes.len(), LONGEST * LETTER - 1);
+        assert!(std::str::from_utf8(bytes).is_ok());
+        let deep = ["a"; 70];
+        let path = short_path(deep);
+        assert_eq!((path.len(), path[64].as_str()), (65, "…"));
+        assert!(is_cut_path(&path) && !is_cut_path(&short_path(["a"; 64])));
+    }
+}
