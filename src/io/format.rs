@@ -6,6 +6,7 @@ use std::hash::{Hash, Hasher};
 use super::error::{Problem, ReadError, WriteError};
 use super::exchange::changes::Rewriter;
 use super::exchange::drawing::{Drawing, Unreadable};
+use super::exchange::remarks::shortened;
 use super::loss::{DocumentLoss, Export, Loss, LossReport};
 use super::reading::Reading;
 use super::table_columns::ColumnChoice;
@@ -158,6 +159,8 @@ impl Format {
         match draw(bytes) {
             Ok(mut drawing) => {
                 drawing.tell_cut_names();
+                let remarks = std::mem::take(&mut drawing.remarks).into_iter();
+                drawing.remarks = remarks.map(shortened).collect();
                 if drawing.is_empty() && drawing.remarks.is_empty() {
                     let none = format!("the {} has no curve and no point", self.name);
                     drawing.remarks.push(none);

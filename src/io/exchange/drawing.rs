@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
+use super::remarks::shortened;
 use crate::io::error::{Place, Problem, ReadError};
 
 /// An arc that misses so small an angle of a turn is a whole one.
@@ -202,7 +203,7 @@ pub struct Unreadable {
 impl Unreadable {
     /// Make an error of it, at a line or, in a binary file, at a byte.
     pub(in crate::io) fn into_error(self, is_binary: bool) -> ReadError {
-        let Self { at, reason } = self;
+        let (at, reason) = (self.at, shortened(self.reason));
         match (at, is_binary) {
             (Some(at), false) => Place::line(at as usize).problem(Problem::Drawing(reason)),
             (Some(at), true) => Problem::Drawing(format!("byte {at}: {reason}")).into(),

@@ -18,7 +18,7 @@ mod mutate;
 mod obj;
 mod pieces;
 mod reading;
-mod remarks;
+pub(super) mod remarks;
 pub(super) mod short_names;
 mod single_points;
 pub(super) mod spending;

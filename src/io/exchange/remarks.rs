@@ -14,7 +14,7 @@ pub(super) struct Remarks {
 }
 
 /// Cut a remark that is too long: it may name what the file holds.
-pub(super) fn shortened(mut remark: String) -> String {
+pub(in crate::io) fn shortened(mut remark: String) -> String {
     if let Some((end, _)) = remark.char_indices().nth(LONGEST) {
         remark.truncate(end);
         remark.push('…');

@@ -78,16 +78,16 @@ impl<'d> File<'d> {
     fn curve(&mut self, text: &'d str) {
         let line = self.line_of(text);
         let is_told = !self.remarks.are_full();
-        let told = |error: serde_json::Error| match is_told {
-            true => error.to_string(),
-            false => String::new(),
-        };
-        let curve = serde_json::from_str::<Curve>(text).map_err(told);
+        let curve = serde_json::from_str::<Curve>(text).map_err(|error| match is_told {
+            true => (line + error.line() as u64 - 1, reason_of(&error)),
+            false => (line, String::new()),
+        });
         let result = curve.and_then(|curve| {
             let name = curve.name.as_deref().map(short);
             let group = curve.group.clone().map(Group::path).unwrap_or_default();
             let group = short_path(group.iter().map(String::as_str));
-            Ok((name, group, curve.spline()?))
+            let spline = curve.spline().map_err(|reason| (line, reason))?;
+            Ok((name, group, spline))
         });
         match result {
             Ok((name, group, spline)) => self.add(Item {
@@ -101,7 +101,7 @@ impl<'d> File<'d> {
                 space: Space::Model,
                 at: line,
             }),
-            Err(reason) => self
+            Err((line, reason)) => self
                 .remarks
                 .add(format!("line {line}: a curve is skipped: {reason}")),
         }
@@ -142,8 +142,17 @@ impl<'d> File<'d> {
     }
 }
 
+/// Say what is wrong, without the place, which is that in the text of the curve alone.
+fn reason_of(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    let place = format!(" at line {} column {}", error.line(), error.column());
+    let reason = text.strip_suffix(&place).unwrap_or(&text);
+    reason.replace("expected usize", "expected a whole number")
+}
+
 /// A curve of the file.
 #[derive(Deserialize)]
+#[serde(expecting = "a curve, which is a JSON object")]
 struct Curve {
     name: Option<String>,
     degree: usize,

@@ -165,6 +165,11 @@ fn damaged_curves_are_skipped_with_a_remark() {
         ),
         ("3", "invalid type"),
     ];
+    let broken = read(b"[\n{\"degree\": 1,\n\"points\": 7}]").unwrap();
+    assert_eq!(
+        broken.remarks,
+        ["line 3: a curve is skipped: invalid type: integer `7`, expected a sequence"]
+    );
     for (curve, reason) in cases {
         let found = read(format!("[\n{LINE},\n{curve},\n{LINE}]").as_bytes()).unwrap();
         assert_eq!(found.items.len(), 2, "{curve}");

@@ -72,6 +72,14 @@ pub(super) fn places(
     Ok(walk(source, document, size, true)?.1)
 }
 
+/// Say that things are skipped, at the place of the first.
+fn skipped(count: usize, one: &str, many: &str) -> String {
+    match count {
+        1 => format!("a {one} is skipped"),
+        _ => format!("{count} {many} are skipped, of which this is the first"),
+    }
+}
+
 /// Walk over a drawing. `places` tells whether to keep where items come from.
 fn walk(
     source: &Source,
@@ -196,16 +204,13 @@ impl<'d> Walk<'d> {
     fn finish(mut self) -> Drawing {
         let (count, line) = self.hidden;
         if count > 0 {
-            self.remarks.add(format!(
-                "line {line}: {count} hidden elements are skipped, of which this is the first"
-            ));
+            let skipped = skipped(count, "hidden element", "hidden elements");
+            self.remarks.add(format!("line {line}: {skipped}"));
         }
         let (count, line) = self.empty;
         if count > 0 {
-            self.remarks.add(format!(
-                "line {line}: {count} subpaths are skipped because they have one point alone, of which \
-                 this is the first"
-            ));
+            let skipped = skipped(count, "subpath of one point", "subpaths of one point");
+            self.remarks.add(format!("line {line}: {skipped}"));
         }
         self.drawing.remarks = self.remarks.finish();
         self.drawing

@@ -153,7 +153,7 @@ fn a_damaged_path_is_read_up_to_the_damage() {
 fn single_points_are_counted_in_a_remark() {
     let found = path("M0 0M1 1M2 2h1");
     assert_eq!(found.items.len(), 1);
-    assert!(found.remarks[0].starts_with("line 2: 2 subpaths are skipped"));
+    assert!(found.remarks[0].starts_with("line 2: 2 subpaths of one point are skipped"));
 }
 
 #[test]
