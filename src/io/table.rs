@@ -202,7 +202,7 @@ fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'
     let mut sections: Vec<Section> = Vec::new();
     let mut title = TitleAbove::default();
     for mut line in all.split() {
-        title.note(&line);
+        let above = title.note(&line);
         if let LineContent::Header(header) = &line.content {
             let header = TableHeader::parse(header);
             let header = header.map_err(|problem| Place::line(line.number).problem(problem))?;
@@ -228,7 +228,8 @@ fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'
             return Err(Place::line(line.number).problem(Problem::TooManyColumns));
         }
         if sections.last().is_none_or(|last| last.ends_before(fields)) {
-            let first = title.take().unwrap_or_else(|| line.without_content());
+            let first = above.unwrap_or_else(|| line.without_content());
+            title = TitleAbove::default();
             let section = PointSection {
                 line: first.number,
                 lines: all.from(&first),
@@ -250,17 +251,20 @@ fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'
 struct TitleAbove<'a> {
     /// The first line of it.
     line: Option<TableLine<'a>>,
-    /// Whether it touches the rows above: with a blank line below it ends these.
+    /// Whether it touches the rows above, and may end these: then the next text is the title.
     touches_rows: bool,
+    /// Whether a blank line is below a text that touches rows.
+    is_divided: bool,
     is_below_row: bool,
 }
 
 impl<'a> TitleAbove<'a> {
-    /// Look at the next line of the file.
-    fn note(&mut self, line: &TableLine<'a>) {
+    /// Look at the next line of the file. Returns the title above it.
+    fn note(&mut self, line: &TableLine<'a>) -> Option<TableLine<'a>> {
+        let above = self.line.clone();
         match &line.content {
             LineContent::Blank => {
-                self.line.take_if(|_| self.touches_rows);
+                self.is_divided |= self.touches_rows;
                 self.is_below_row = false;
             }
             LineContent::Comment => {}
@@ -270,18 +274,16 @@ impl<'a> TitleAbove<'a> {
                 self.is_below_row = true;
             }
             LineContent::Fields(_) => {
-                if self.line.is_none() {
+                if self.line.is_none() || self.touches_rows {
                     self.line = Some(line.without_content());
-                    self.touches_rows = self.is_below_row;
+                    let goes_on = self.touches_rows && !self.is_divided;
+                    self.touches_rows = self.is_below_row || goes_on;
+                    self.is_divided = false;
                 }
                 self.is_below_row = false;
             }
         }
-    }
-
-    /// Take the first line of the title.
-    fn take(&mut self) -> Option<TableLine<'a>> {
-        self.line.take()
+        above
     }
 }
 

@@ -37,6 +37,27 @@ const SENSES: [(&str, f64); 8] = [
     ("w", -1.0),
 ];
 
+/// Units of length that documents do not have, as lines below names spell them.
+const OTHER_LENGTHS: [&str; 17] = [
+    "ft",
+    "feet",
+    "foot",
+    "inch",
+    "inches",
+    "um",
+    "µm",
+    "μm",
+    "nm",
+    "mil",
+    "yd",
+    "km",
+    "px",
+    "pt",
+    "millimeter",
+    "millimetre",
+    "meter",
+];
+
 /// Words behind x or y that are no unit: of a chord, or of nothing.
 const NO_UNIT: [&str; 5] = ["c", "chord", "-", "1", ""];
 
@@ -156,15 +177,17 @@ impl FromStr for ColumnChoice {
     }
 }
 
-/// Whether a line below the names of columns has their units: each field is one of length, or in brackets.
-pub(super) fn are_units(fields: &Fields) -> bool {
-    let is_length = |text: &str| LengthUnit::of_symbol(text).is_some();
-    let mut has_length = false;
-    fields.values.iter().all(|field| {
-        let inside = unbracketed(field);
-        has_length |= is_length(inside);
-        is_length(inside) || inside != field.as_ref() || field.is_empty() || field == "-"
-    }) && has_length
+/// Whether a line below names of columns has their units: there is one of length, and no number.
+pub(super) fn are_units(fields: &Fields, names: &ColumnNames) -> bool {
+    let is_length = |field: &Cow<str>| {
+        let unit = unbracketed(field).to_lowercase();
+        LengthUnit::of_symbol(&unit).is_some() || OTHER_LENGTHS.contains(&unit.as_str())
+    };
+    !fields.have_numbers(1)
+        && fields.values.len() <= names.count()
+        && fields.values.iter().any(is_length)
+        && names.coordinates().is_some()
+        && ColumnNames::of(fields).coordinates().is_none()
 }
 
 /// The inside of a text in brackets; any other text as it is.

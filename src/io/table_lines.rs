@@ -293,7 +293,13 @@ fn content(line: &str, separator: char) -> LineContent<'_> {
     if let Some(content) = of_tecplot(line) {
         return content;
     }
-    let fields = Fields::of(unbracketed(line), separator);
+    let line = unbracketed(line);
+    let fields = Fields::of(line, separator);
+    // Files that were put together may have other rows with blanks alone.
+    let is_unsplit = separator != ' ' && fields.width == 1 && !line.contains('"');
+    let by_blanks = is_unsplit.then(|| Fields::of(line, ' '));
+    let are_numbers = |it: &Fields| it.values.len() > 1 && it.values.iter().all(|it| is_number(it));
+    let fields = by_blanks.filter(are_numbers).unwrap_or(fields);
     match fields.values.is_empty() {
         true => LineContent::Blank,
         false => LineContent::Fields(fields),

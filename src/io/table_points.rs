@@ -1,6 +1,7 @@
 //! Lists of points in tables as other programs write them: with titles, other columns, text between the
 //! rows, and airfoils in either order.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -8,7 +9,7 @@ use glam::DVec3;
 use super::airfoil_order::{AirfoilOrder, around, is_selig, lednicer, uncounted, upper_first};
 use super::decimals::{Decimals, is_number, measured};
 use super::error::{Place, Problem, ReadError};
-use super::exchange::short_names::short;
+use super::exchange::short_names::{CUT, is_cut, short};
 use super::exchange::spending::most_items;
 use super::point_section::{Content, PointSection, Usual};
 use super::reading::{Reading, Remark, Remarks, nameless};
@@ -26,8 +27,11 @@ const COUNTERS: [&str; 10] = [
     "nr", "no", "n", "#", "id", "i", "index", "num", "number", "point",
 ];
 
-/// So few rows below a text are part of the list above it.
-const LEAST_TITLED: usize = 3;
+/// A text below fewer rows is no title.
+const LEAST_TITLED: usize = 2;
+
+/// No airfoil in a file of several has more points.
+const MOST_TITLED: usize = 2000;
 
 /// No section of an airfoil has more points. To look for one takes memory.
 const MOST_OF_AIRFOIL: usize = 100_000;
@@ -127,23 +131,33 @@ impl Blocks {
         !self.is_open() && self.at_texts.pop_if(|block| *block + 1 == last).is_some()
     }
 
-    /// Whether every text without a blank line above it is a title: the rows above the first one have a title too, and
-    /// the rows between two of them can be a curve.
-    fn has_titles_alone(&self) -> bool {
-        let ends = self
-            .at_texts
-            .iter()
-            .filter_map(|block| self.ends.get(*block));
-        let mut places: Vec<usize> = [0].into_iter().chain(ends.copied()).collect();
-        places.push(self.rows.len());
-        let is_titled = self.titles.first().is_some_and(|(block, ..)| *block == 0);
-        is_titled
-            && places
-                .windows(2)
-                .all(|pair| pair[1] - pair[0] >= LEAST_TITLED)
+    /// Keep the ends at texts that are titles, in the list of those that are none: above a title is a whole airfoil.
+    fn drop_titles(&mut self) {
+        let mut first = 0;
+        for block in std::mem::take(&mut self.at_texts) {
+            match self.are_airfoil(first..block + 1) {
+                true => first = block + 1,
+                false => self.at_texts.push(block),
+            }
+        }
     }
 
-    /// Join the blocks that texts divide. Returns the lines of these.
+    /// Whether some blocks are an airfoil together.
+    fn are_airfoil(&self, blocks: Range<usize>) -> bool {
+        let begin = blocks.start.checked_sub(1).map_or(0, |it| self.ends[it]);
+        let ends: Vec<usize> = self.ends[blocks].iter().map(|it| it - begin).collect();
+        let length = ends.last().copied().unwrap_or_default();
+        if length > MOST_TITLED {
+            return false;
+        }
+        let rows = self.rows[begin..begin + length].iter();
+        let points: Vec<DVec3> = rows.map(|row| row.point).collect();
+        is_selig(&points)
+            || lednicer(&points, &ends).is_some()
+            || uncounted(&points, &ends).is_some_and(|it| it.is_certain)
+    }
+
+    /// Join the blocks that texts divide which are no titles. Returns the lines of these.
     fn join_at_texts(&mut self) -> Vec<usize> {
         let at_texts = std::mem::take(&mut self.at_texts);
         let is_at_text = |block: usize| at_texts.binary_search(&block).is_ok();
@@ -318,6 +332,9 @@ impl<'a> PointReader<'a> {
         reading.unit = reading.unit.or(self.unit);
         let mut lists = std::mem::take(&mut self.lists);
         self.project(&mut lists);
+        if lists.iter().any(|list| is_cut(&list.name)) {
+            self.remarks.add(Remark::Drawn(CUT.to_owned()));
+        }
         let several = lists.len() > 1;
         for (list, number) in lists.into_iter().zip(1..) {
             // A receiver that stands still makes a list of one point.
@@ -431,15 +448,25 @@ impl<'a> PointReader<'a> {
         let words = above.filter(|(_, fields)| {
             !fields.have_numbers(1) && !is_rule(fields) && !fields.lack_a_number()
         });
-        let mut words: Vec<(usize, Fields)> = words.collect();
-        let units = words.pop_if(|(_, fields)| are_units(fields));
-        let (line, names) = match (words.pop(), units) {
-            (Some((line, fields)), None) => ([line; 2], ColumnNames::of(&fields)),
-            (Some((line, fields)), Some((last, units))) => {
-                ([line, last], ColumnNames::of(&fields).with_units(&units))
-            }
-            (None, Some((line, fields))) => ([line; 2], ColumnNames::of(&fields)),
-            (None, None) => return None,
+        let words: Vec<(usize, Fields)> = words.collect();
+        let fits = |names: &ColumnNames| [count, width].contains(&names.count());
+        // A title may stand below names of x and y, but no other names.
+        let has_coordinates =
+            |(_, fields): &(usize, Fields)| ColumnNames::of(fields).coordinates().is_some();
+        let last = words.len().checked_sub(1)?;
+        let above = words.iter().rposition(has_coordinates).filter(|place| {
+            let below = words.get(place + 1..).unwrap_or_default();
+            let mut below = below.iter().map(|(_, fields)| ColumnNames::of(fields));
+            let names = ColumnNames::of(&words[*place].1);
+            let next = words.get(place + 1);
+            next.is_some_and(|(_, fields)| are_units(fields, &names)) || !below.any(|it| fits(&it))
+        });
+        let (line, fields) = &words[above.unwrap_or(last)];
+        let names = ColumnNames::of(fields);
+        let units = words.get(above.unwrap_or(last) + 1);
+        let (line, names) = match units.filter(|(_, fields)| are_units(fields, &names)) {
+            Some((below, units)) => ([*line, *below], names.with_units(units)),
+            None => ([*line; 2], names),
         };
         // Words of a title are seldom divided by commas or semicolons.
         let is_title = match self.separator {
@@ -449,7 +476,7 @@ impl<'a> PointReader<'a> {
             _ => false,
         };
         // The last column of a spreadsheet may be empty in all rows.
-        let fits = [count, width].contains(&names.count());
+        let fits = fits(&names);
         let is_there = |place: &usize| *place < count.max(width);
         let coordinates = names.coordinates();
         let are_there = coordinates.is_some_and(|it| it.places.iter().all(is_there));
@@ -546,6 +573,8 @@ impl<'a> PointReader<'a> {
         };
         let mut title_above: Option<(usize, String)> = None;
         let (mut lists, mut begin) = (self.lists.len(), 0);
+        // Whether the title above touches the rows before, and whether a blank line is below it.
+        let (mut touches, mut is_divided) = (false, false);
         for (line, fields) in section.split() {
             let Some(fields) = fields else {
                 if blocks.is_open() {
@@ -553,9 +582,9 @@ impl<'a> PointReader<'a> {
                     self.check_count(lists, line.number)?;
                     begin = blocks.rows.len();
                     blocks.end(title_above.take());
-                } else if blocks.ends_with_text() {
-                    self.skipped
-                        .extend(title_above.take().map(|(line, _)| line));
+                } else {
+                    blocks.ends_with_text();
+                    is_divided = true;
                 }
                 continue;
             };
@@ -564,10 +593,7 @@ impl<'a> PointReader<'a> {
                 && layout.may_be_title(&fields)
                 && let Some(title) = title(line.text)
             {
-                self.remarks.add(Remark::Title {
-                    line: line.number,
-                    title: title.clone(),
-                });
+                self.tell_title(line.number, &fields, &title);
                 title_above = Some((line.number, title));
                 continue;
             }
@@ -580,8 +606,20 @@ impl<'a> PointReader<'a> {
                 Ok(Found::Text) if layout.names.is_some_and(|it| it.contains(&line.number)) => {}
                 Ok(Found::Text) if fields.lack_a_number() => self.skipped.push(line.number),
                 Ok(Found::Text) => match title(line.text) {
-                    Some(title) if is_first => title_above = Some((line.number, title)),
+                    Some(title) if is_first => {
+                        touches = false;
+                        self.tell_title(line.number, &fields, &title);
+                        title_above = Some((line.number, title));
+                    }
+                    // Below rows the last text is the title, those before belong to what is above.
+                    Some(title) if !blocks.is_open() && !blocks.ends.is_empty() && touches => {
+                        self.tell_title(line.number, &fields, &title);
+                        let above = title_above.replace((line.number, title));
+                        self.skipped.extend(above.map(|(line, _)| line));
+                        touches = !is_divided;
+                    }
                     Some(title) if blocks.rows.len() >= begin + LEAST_TITLED => {
+                        (touches, is_divided) = (true, false);
                         lists += 1;
                         self.check_count(lists, line.number)?;
                         begin = blocks.rows.len();
@@ -599,10 +637,17 @@ impl<'a> PointReader<'a> {
                 self.skipped.extend(title_above.map(|(line, _)| line));
             }
         }
-        if !blocks.has_titles_alone() {
-            self.skipped.extend(blocks.join_at_texts());
-        }
+        blocks.drop_titles();
+        self.skipped.extend(blocks.join_at_texts());
         Ok(blocks)
+    }
+
+    /// Tell a title that begins with a number, as a row does.
+    fn tell_title(&mut self, line: usize, fields: &Fields, title: &str) {
+        if fields.values.first().is_some_and(|it| is_number(it)) {
+            let title = title.to_owned();
+            self.remarks.add(Remark::Title { line, title });
+        }
     }
 
     /// Bring an airfoil in Lednicer order into that around the section.

@@ -17,7 +17,7 @@ const CLOSED: f64 = 1e-9;
 const SMOOTH: f64 = 1e-8;
 
 /// No chain of more points is looked at: its conversion takes much memory, and nobody edits so many vertices.
-const MOST_OF_CHAIN: usize = 1 << 17;
+const MOST_OF_CHAIN: usize = 1 << 18;
 
 /// Up to this degree and size a polynomial curve on even clamped knots loses no digits on the way to its float polygon.
 const PLAIN_DEGREE: usize = 3;
@@ -40,10 +40,7 @@ impl Nurbs {
                 it.nearest_float()
             });
         }
-        let segments = (count - 1) as f64 / n as f64;
-        let repeated = |knot: usize| ((knot - 1) as f64 / n as f64).floor().clamp(0.0, segments);
-        let is_chain = segments.fract() == 0.0 && self.has_knots(segments, repeated);
-        if is_chain && count <= MOST_OF_CHAIN && self.joins_smoothly() {
+        if self.is_chain() && count <= MOST_OF_CHAIN && self.joins_smoothly() {
             let make = || BezierPolygon::new(n, self.points().to_vec(), self.owned_weights());
             return self.converted(make, BezierPolygon::nearest_periodic_float, |it| {
                 it.nearest_float()
@@ -63,6 +60,19 @@ impl Nurbs {
                 .iter()
                 .all(|it| it.abs().max_element() <= PLAIN_SIZE);
         is_plain && self.has_knots(segments as f64, clamped) || self.float_polygon().is_some()
+    }
+
+    /// Whether it is a chain of Béziers that is too long for a conversion, though it may join smoothly.
+    pub fn is_long_chain(&self) -> bool {
+        self.points().len() > MOST_OF_CHAIN && self.is_chain() && self.joins_smoothly()
+    }
+
+    /// Whether the knots are those of Béziers of one length.
+    fn is_chain(&self) -> bool {
+        let (n, count) = (self.degree(), self.points().len());
+        let segments = (count - 1) as f64 / n as f64;
+        let repeated = |knot: usize| ((knot - 1) as f64 / n as f64).floor().clamp(0.0, segments);
+        segments.fract() == 0.0 && self.has_knots(segments, repeated)
     }
 
     /// Whether the knots stand at given places of an interval of so many segments. The first and the last knot have no

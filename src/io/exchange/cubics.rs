@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 use kurbo::{
-    CubicBez, CurveFitSample, ParamCurve, ParamCurveFit, ParamCurveNearest, Point, Vec2,
-    fit_to_bezpath_opt,
+    BezPath, CubicBez, CurveFitSample, ParamCurve, ParamCurveFit, ParamCurveNearest, Point, Vec2,
+    fit_to_bezpath, fit_to_bezpath_opt,
 };
 
 use super::drawing::Nurbs;
@@ -19,6 +19,9 @@ const WITHIN: f64 = 1e-4;
 
 /// The samples of a Bézier, and of a segment of the curve, by which the chain is measured.
 const SAMPLES: usize = 32;
+
+/// A fit whose measured distance is so many times the tolerance has failed: the fit itself only estimates it.
+const LOOSE: f64 = 2.0;
 
 /// The accuracy of nearest points, by the tolerance.
 const ACCURACY: f64 = 1e-3;
@@ -78,26 +81,54 @@ impl Cubics {
     }
 }
 
-/// The fewest Béziers within a length. Their curvature jumps at the joints.
+/// Few Béziers within a length. Their curvature jumps at the joints.
 fn nearest_chain(polygon: &FloatPolygon, tolerance: f64) -> Vec<Cubic> {
-    let path = fit_to_bezpath_opt(&Source(polygon), tolerance);
-    let cubics = path.segments().map(|segment| {
-        let cubic = segment.to_cubic();
-        [cubic.p0, cubic.p1, cubic.p2, cubic.p3].map(|it| DVec2::new(it.x, it.y))
-    });
-    cubics.collect()
+    let scale = unit_scale(polygon);
+    let source = Source { polygon, scale };
+    let off = |chain: &[Cubic]| farthest(polygon, chain, ACCURACY * tolerance);
+    let fewest = source.chain(&fit_to_bezpath_opt(&source, scale * tolerance));
+    let missed = off(&fewest);
+    if missed <= LOOSE * tolerance {
+        return fewest;
+    }
+    // The fewest may miss the curve by far: the other fit halves it until all is near.
+    let halved = source.chain(&fit_to_bezpath(&source, scale * tolerance));
+    match off(&halved) < missed {
+        true => halved,
+        false => fewest,
+    }
 }
 
-/// A curve over 0 to 1.
-struct Source<'a>(&'a FloatPolygon);
+/// The power of two that gives a curve a size from 1 to 2: fits and nearest points of `kurbo` count in lengths, and do not
+/// end, or are wrong, where these are large.
+fn unit_scale(polygon: &FloatPolygon) -> f64 {
+    (-polygon.size().log2().floor()).exp2()
+}
+
+/// A curve over 0 to 1, of a size from 1 to 2.
+struct Source<'a> {
+    polygon: &'a FloatPolygon,
+    /// A power of two.
+    scale: f64,
+}
 
 impl Source<'_> {
+    /// The cubics of a path of the scaled curve.
+    fn chain(&self, path: &BezPath) -> Vec<Cubic> {
+        let cubics = path.segments().map(|segment| {
+            let cubic = segment.to_cubic();
+            let points = [cubic.p0, cubic.p1, cubic.p2, cubic.p3];
+            points.map(|it| DVec2::new(it.x, it.y) / self.scale)
+        });
+        cubics.collect()
+    }
+
     /// The point and the derivative.
     fn at(&self, t: f64) -> [DVec2; 2] {
-        let segments = self.0.segments() as f64;
+        let segments = self.polygon.segments() as f64;
         // The end of a periodic curve is not its start on the way there.
-        let jet = self.0.jet((t * segments).min(segments.next_down()));
-        [jet.point, segments * jet.first].map(|it| it.truncate())
+        let jet = self.polygon.jet((t * segments).min(segments.next_down()));
+        [jet.point, segments * jet.first].map(|it| self.scale * it.truncate())
     }
 }
 
@@ -123,10 +154,11 @@ impl ParamCurveFit for Source<'_> {
 
 /// How far samples of a curve and of a chain are from the other one.
 fn farthest(polygon: &FloatPolygon, chain: &[Cubic], accuracy: f64) -> f64 {
+    let scale = unit_scale(polygon);
     let segments: Vec<CubicBez> = chain
         .iter()
         .map(|cubic| {
-            let [a, b, c, d] = cubic.map(|it| vector(it).to_point());
+            let [a, b, c, d] = cubic.map(|it| vector(scale * it).to_point());
             CubicBez::new(a, b, c, d)
         })
         .collect();
@@ -134,14 +166,17 @@ fn farthest(polygon: &FloatPolygon, chain: &[Cubic], accuracy: f64) -> f64 {
     let of_chain = segments
         .iter()
         .flat_map(|segment| (0..=SAMPLES).map(move |sample| segment.eval(share(sample))));
-    let of_chain = of_chain.map(|at| polygon.nearest(DVec3::new(at.x, at.y, 0.0)).distance);
+    let of_chain = of_chain.map(|at| {
+        let at = DVec3::new(at.x, at.y, 0.0) / scale;
+        polygon.nearest(at).distance
+    });
     let of_curve = (0..=SAMPLES * polygon.segments()).map(|sample| {
-        let at = polygon.point(share(sample));
+        let at = scale * polygon.point(share(sample));
         let at = Point::new(at.x, at.y);
         let squares = segments
             .iter()
-            .map(|segment| segment.nearest(at, accuracy).distance_sq);
-        squares.fold(f64::INFINITY, f64::min).sqrt()
+            .map(|segment| segment.nearest(at, scale * accuracy).distance_sq);
+        squares.fold(f64::INFINITY, f64::min).sqrt() / scale
     });
     of_chain.chain(of_curve).fold(0.0, f64::max)
 }
@@ -190,6 +225,37 @@ mod tests {
         assert!(now > before, "{found:?}");
         let told = format!("; curvature extrema: {before} before, {now} as written");
         assert!(found.to_string().contains(&told), "{found}");
+    }
+
+    #[test]
+    fn curves_of_any_size_are_fitted() {
+        let ring = [
+            (10.0, 0.0),
+            (8.7, 5.0),
+            (5.0, 8.7),
+            (0.0, 10.0),
+            (-5.0, 8.7),
+            (-8.7, 5.0),
+        ];
+        let far = |far: f64, scale: f64| {
+            let vertices: Vec<(f64, f64)> = ring
+                .iter()
+                .chain(&[(far, 0.0), (-5.0, -8.7), (0.0, -10.0), (5.0, -8.7)])
+                .map(|(x, y)| (scale * x, scale * y))
+                .collect();
+            FloatPolygon::planar(5, &vertices).expect("a polygon")
+        };
+        for (polygon, most) in [
+            (far(1e11, 1.0), 5e-4),
+            (far(1e10, 1.0), 5e-4),
+            (far(-10.0, 1e9), 2e-4),
+            (far(-10.0, 1e-9), 2e-4),
+        ] {
+            let size = polygon.size();
+            let chain = nearest_chain(&polygon, 1e-4 * size);
+            let off = farthest(&polygon, &chain, 1e-6 * size);
+            assert!(off <= most * size, "{off} {size}");
+        }
     }
 
     #[test]

@@ -146,8 +146,10 @@ struct Taken<'d> {
     is_nameless: bool,
 }
 
-/// The layers that items without one are on, in DXF and in 3DM.
-const DEFAULT_LAYERS: [&str; 2] = ["0", "Default"];
+/// The layer that items without one are on: in DXF, which has no names of items, and in 3DM.
+fn is_default(layer: &str, is_nameless: bool) -> bool {
+    layer == "0" || (layer == "Default" && !is_nameless)
+}
 
 impl<'d> Taken<'d> {
     fn take(&mut self, place: usize, item: &'d Item) {
@@ -180,6 +182,7 @@ impl<'d> Taken<'d> {
                 }
                 Ok(Made::Reference(curve)) => {
                     self.sources[1].push(Some([place, index]));
+                    self.tell_long_chain(&name, &curve);
                     let mut reference = Reference::new(name, curve).in_group(group.clone());
                     reference.colour = item.colour.and_then(own_colour);
                     reference.visible = !item.hidden;
@@ -190,10 +193,22 @@ impl<'d> Taken<'d> {
         }
     }
 
+    /// Tell that a chain of Béziers is too long to look for its float polygon.
+    fn tell_long_chain(&mut self, name: &str, curve: &ReferenceCurve) {
+        if let ReferenceForm::Nurbs(nurbs) = curve.form()
+            && nurbs.is_long_chain()
+        {
+            let count = nurbs.points().len();
+            self.tell(format!(
+                "{name}: {count} points of Béziers stay a reference, a float polygon is not looked for"
+            ));
+        }
+    }
+
     /// The name of an item, and the layers that become its group: not that which items without one are on.
     fn placed<'a>(&self, item: &'a Item) -> (Option<&'a String>, &'a [String]) {
         match (&item.name, &item.group[..]) {
-            (name, [layer]) if DEFAULT_LAYERS.contains(&layer.as_str()) => (name.as_ref(), &[]),
+            (name, [layer]) if is_default(layer, self.is_nameless) => (name.as_ref(), &[]),
             (None, [outer @ .., layer]) if self.are_layer(item, 1) => (Some(layer), outer),
             (name, layers) => (name.as_ref(), layers),
         }
@@ -295,7 +310,7 @@ impl<'d> Taken<'d> {
         let (own, group) = match place {
             None => (None, Group::default()),
             Some((layers, block)) => match &layers[..] {
-                [layer] if DEFAULT_LAYERS.contains(&layer.as_str()) => (None, Group::new(block)),
+                [layer] if is_default(layer, self.is_nameless) => (None, Group::new(block)),
                 [outer @ .., layer] if are_layer => (Some(layer.as_str()), Group::new(outer)),
                 layers => (None, Group::new(layers.iter().chain(block))),
             },

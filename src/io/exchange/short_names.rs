@@ -5,6 +5,9 @@ use super::drawing::Drawing;
 /// The letters of the longest name that is kept: AutoCAD allows as many.
 pub(super) const LONGEST: usize = 255;
 
+/// What is told of names that are cut.
+pub(in crate::io) const CUT: &str = "names of more than 255 letters are cut";
+
 /// The most groups of a path that are kept.
 const DEEPEST: usize = 64;
 
@@ -45,7 +48,8 @@ pub(super) fn beginning(bytes: &[u8]) -> &[u8] {
     bytes
 }
 
-fn is_cut(name: &str) -> bool {
+/// Whether a name was cut.
+pub(in crate::io) fn is_cut(name: &str) -> bool {
     name.len() > LONGEST && name.ends_with(REST) && name.chars().count() == LONGEST + 1
 }
 
@@ -61,8 +65,7 @@ impl Drawing {
             names.map(String::as_str)
         });
         if names.any(is_cut) {
-            let told = format!("names of more than {LONGEST} letters are cut");
-            self.remarks.push(told);
+            self.remarks.push(CUT.to_owned());
         }
         if self.items.iter().any(|item| is_cut_path(&item.group)) {
             let told = format!("paths of more than {DEEPEST} groups are cut");

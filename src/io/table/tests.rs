@@ -491,30 +491,39 @@ fn blank_lines_divide_points() {
 }
 
 #[test]
-fn titles_divide_points_without_a_blank_line() {
-    let keel = "0 1.5\n2.25 -3\n4 5\n";
-    let both = [("keel", POINTS), ("stem 2", POINTS)];
-    for (text, told) in [
-        (format!("keel\n{keel}stem 2\n{keel}"), ""),
-        (format!("keel\n\n{keel}stem 2\n{keel}\n"), ""),
-        (
-            format!("keel\n{keel}end of keel\n\nstem 2\n{keel}end"),
-            "lines 5 and 11 were skipped (no point)",
-        ),
-    ] {
-        check_lists(&text, &both, told);
-    }
+fn a_text_between_rows_divides_nothing_but_whole_airfoils() {
     let six = [POINTS, POINTS].concat();
+    let keel = "0 1.5\n2.25 -3\n4 5\n";
+    for text in ["stem", "3 #VALUE!", "** page break **", "mean 3.5"] {
+        check_lists(
+            &format!("keel\n{keel}{text}\n{keel}"),
+            &[("keel", &six)],
+            "line 5 was skipped (no point)",
+        );
+    }
     check_lists(
-        &format!("{keel}stem\n{keel}"),
-        &[("points 1", &six)],
-        "line 4 was skipped (no point)",
+        &format!("keel\n\n{keel}end\n\nstem\n{keel}end"),
+        &[("keel", POINTS), ("stem", POINTS)],
+        "lines 6 and 12 were skipped (no point)",
     );
     check_lists(
-        &format!("keel\n{keel}stem\n1 1\n2 2\n"),
-        &[("keel", &[POINTS, &[[1.0, 1.0], [2.0, 2.0]]].concat())],
-        "line 5 was skipped (no point)",
+        &format!("keel\n\n{keel}stem\n\n{keel}"),
+        &[("keel", POINTS), ("stem", POINTS)],
+        "",
     );
+}
+
+#[test]
+fn rows_with_blanks_alone_are_read_beside_others() {
+    for separator in ["\t", ",", ";"] {
+        let rows: String = (0..300)
+            .map(|row| format!("{row}.5{separator}{row}\n"))
+            .collect();
+        let reading = read(format!("keel\n{rows}300.5  300\n").as_bytes()).unwrap();
+        let points = reading.references[0].points().unwrap();
+        assert_eq!(points.len(), 301, "{separator:?}");
+        assert_eq!(points[300], DVec3::new(300.5, 300.0, 0.0));
+    }
 }
 
 #[test]
@@ -540,8 +549,9 @@ fn a_line_below_the_names_of_columns_has_units() {
         ("x,y\nmm,mm\n", LengthUnit::Millimetre),
         ("keel\nx,y\n[in],[in]\n", LengthUnit::Inch),
         ("x,y,c\nm,m,[deg]\n", LengthUnit::Metre),
+        ("x,y,c\nmm,mm,Pa\n", LengthUnit::Millimetre),
     ] {
-        let more = if text.contains("deg") { ",7" } else { "" };
+        let more = if text.contains("c\n") { ",7" } else { "" };
         let rows = POINTS.iter().map(|[x, y]| format!("{x},{y}{more}\n"));
         let text = text.to_owned() + &rows.collect::<String>();
         let reading = read(text.as_bytes()).unwrap();
@@ -549,6 +559,12 @@ fn a_line_below_the_names_of_columns_has_units() {
         assert_eq!(reading.remarks.to_string(), "", "{text}");
         assert_eq!(reading.references[0].points().unwrap().len(), 3);
     }
+    for units in ["ft,ft", "[ft],[ft]"] {
+        let text = format!("x,y\n{units}\n0,1.5\n2.25,-3\n4,5\n");
+        let told = "the unit “ft” is not known: mm, cm, m and in are";
+        check_lists(&text, &[("points 1", POINTS)], told);
+    }
+    check_lists("x,y\nkeel\n0,1.5\n2.25,-3\n4,5\n", &[("keel", POINTS)], "");
     let mixed = read(b"# unit=mm\n# unit=mm\n# unit=in\n0,1\n2,3\n").unwrap_err();
     let expected =
         "line 3: the columns are in millimetres and in inches: give all coordinates in one unit";
@@ -647,6 +663,12 @@ fn an_airfoil_in_lednicer_order_is_read_around_the_section() {
     check_lists(&two, &both, &told_both);
     let two = format!("{selig}next\n{}", rows(around));
     check_lists(&two, &both, &told_both.replace("Lednicer", "Selig"));
+    let two = two.replacen("0.1 ", "bad row\n 0.1 ", 1);
+    let skipped = format!(
+        "{}\nline 4 was skipped (no point)",
+        told_both.replace("Lednicer", "Selig")
+    );
+    check_lists(&two, &both, &skipped);
     // Waterlines of a hull in metres may look alike.
     let hull = |row: &[f64; 2]| row.map(|value| 10.0 * value);
     let [side, other] = [&around[..4], &around[3..]].map(|side| side.iter().map(hull).collect());
