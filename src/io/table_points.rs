@@ -131,12 +131,17 @@ impl Blocks {
         !self.is_open() && self.at_texts.pop_if(|block| *block + 1 == last).is_some()
     }
 
-    /// Keep the ends at texts that are titles, in the list of those that are none: above a title is a whole airfoil.
+    /// Keep the ends at texts that are titles, in the list of those that are none: above a title or below it is a whole
+    /// airfoil.
     fn drop_titles(&mut self) {
+        let at_texts = std::mem::take(&mut self.at_texts);
+        let nexts = at_texts.iter().skip(1).map(|block| block + 1);
+        let nexts: Vec<usize> = nexts.chain([self.ends.len()]).collect();
         let mut first = 0;
-        for block in std::mem::take(&mut self.at_texts) {
-            match self.are_airfoil(first..block + 1) {
-                true => first = block + 1,
+        for (block, next) in at_texts.into_iter().zip(nexts) {
+            let end = block + 1;
+            match self.are_airfoil(first..end) || self.are_airfoil(end..next) {
+                true => first = end,
                 false => self.at_texts.push(block),
             }
         }

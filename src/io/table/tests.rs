@@ -669,6 +669,11 @@ fn an_airfoil_in_lednicer_order_is_read_around_the_section() {
         told_both.replace("Lednicer", "Selig")
     );
     check_lists(&two, &both, &skipped);
+    // What is no airfoil does not take those below along.
+    let three = format!("foil\n0 0\n1 1\n2 0\n{two}");
+    let lists = read(three.as_bytes()).unwrap().references;
+    let counts = lists.iter().map(|it| it.points().unwrap().len());
+    assert_eq!(counts.collect::<Vec<_>>(), [10, 7]);
     // Waterlines of a hull in metres may look alike.
     let hull = |row: &[f64; 2]| row.map(|value| 10.0 * value);
     let [side, other] = [&around[..4], &around[3..]].map(|side| side.iter().map(hull).collect());
