@@ -17,7 +17,6 @@ mod conversion;
 mod crossing;
 pub mod cubics;
 mod curvature_levels;
-mod curvature_turns;
 mod cut;
 mod differentiable;
 pub mod distance;
@@ -80,7 +79,6 @@ pub use conversion::{
 };
 pub use crossing::{cross, curve_crossing, new_crossing};
 pub use curvature_levels::{CurvatureLevels, LEVEL_ORDER, LEVELS};
-pub use curvature_turns::curvature_turns;
 pub use differentiable::Differentiable;
 pub use end::{End, rotation_between};
 pub use error::{MAX_DEGREE, PolygonError};

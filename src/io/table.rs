@@ -249,12 +249,13 @@ fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'
 /// The text above a line with the names of columns, which is the title of what is below.
 #[derive(Default)]
 struct TitleAbove<'a> {
-    /// The first line of it.
+    /// The line that becomes the title.
     line: Option<TableLine<'a>>,
     /// Whether it touches the rows above, and may end these: then the next text is the title.
     touches_rows: bool,
     /// Whether a blank line is below a text that touches rows.
     is_divided: bool,
+    /// Whether the line before is a row.
     is_below_row: bool,
 }
 

@@ -125,14 +125,16 @@ impl Blocks {
         self.end(title);
     }
 
-    /// Keep the end of the last block, though the text there is no title as nothing follows it. Returns whether it was one.
-    fn ends_with_text(&mut self) -> bool {
+    /// Keep the end of the last block, if a text without rows below it is there: a blank line or the end of the file
+    /// follows.
+    fn keep_last_end(&mut self) {
         let last = self.ends.len();
-        !self.is_open() && self.at_texts.pop_if(|block| *block + 1 == last).is_some()
+        if !self.is_open() {
+            self.at_texts.pop_if(|block| *block + 1 == last);
+        }
     }
 
-    /// Keep the ends at texts that are titles, in the list of those that are none: above a title or below it is a whole
-    /// airfoil.
+    /// Take titles out of the texts that may be none: above a title or below it is a whole airfoil.
     fn drop_titles(&mut self) {
         let at_texts = std::mem::take(&mut self.at_texts);
         let nexts = at_texts.iter().skip(1).map(|block| block + 1);
@@ -588,7 +590,7 @@ impl<'a> PointReader<'a> {
                     begin = blocks.rows.len();
                     blocks.end(title_above.take());
                 } else {
-                    blocks.ends_with_text();
+                    blocks.keep_last_end();
                     is_divided = true;
                 }
                 continue;
@@ -638,7 +640,7 @@ impl<'a> PointReader<'a> {
         match blocks.is_open() {
             true => blocks.end(title_above),
             false => {
-                blocks.ends_with_text();
+                blocks.keep_last_end();
                 self.skipped.extend(title_above.map(|(line, _)| line));
             }
         }

@@ -27,8 +27,8 @@ use crate::geometry::features::Features;
 use crate::geometry::harmony::{Fairness, SegmentFairness, unevenness};
 use crate::geometry::parameters::Quantity;
 use crate::geometry::{
-    BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, curvature_turns, percent,
-    rounded_up, significant,
+    BezierPolygon, Continuity, End, FloatPolygon, Progress, counted, percent, rounded_up,
+    significant,
 };
 
 /// How far the curve may move without a wish, by its size.
@@ -36,10 +36,6 @@ const MOST_DEVIATION: f64 = 0.05;
 
 /// More extrema than this are hardly what fairing is for.
 const MANY: usize = 6;
-
-/// So often the slope of the curvature may turn, and so often more for each feature that stands out, before its curvature
-/// is a staircase.
-const MOST_TURNS: [usize; 2] = [4, 2];
 
 const PROMINENT: Meaning = |_| "prominent ones (automatic)";
 
@@ -292,7 +288,6 @@ fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome
             .extend(found.displaced.map(remark_on_displaced));
         outcome.remarks.extend(remark_on_lost(&found));
         outcome.warnings.extend(many(&found, &harmony));
-        outcome.warnings.extend(stepped(&curve.polygon, &found));
         let lost = follows(&found.polygon, &progress) == Some(false)
             && follows(&curve.polygon, &progress) == Some(true);
         outcome.warnings.extend(lost.then(|| {
@@ -466,17 +461,6 @@ fn many(found: &Harmonised, harmony: &Harmony) -> Option<String> {
     (harmony.extrema.is_none() && left > MANY).then(|| {
         format!(
             "{left} curvature extrema stand out and stay: enter a number in Curvature extrema to keep fewer"
-        )
-    })
-}
-
-/// Say that the curvature rises and falls in steps, which are no extrema but stand out as much.
-fn stepped(before: &FloatPolygon, found: &Harmonised) -> Option<String> {
-    let turns = curvature_turns(&found.polygon);
-    let few = MOST_TURNS[0] + MOST_TURNS[1] * (found.counts.extrema + found.counts.inflections);
-    (found.polygon != *before && turns > few).then(|| {
-        format!(
-            "The curvature rises and falls in steps, its slope turns {turns} times: fit with fewer vertices first"
         )
     })
 }
