@@ -136,6 +136,38 @@ impl Content {
     }
 }
 
+/// What is known of the last text above rows. Where it touches other rows above, it may belong to these.
+#[derive(Default)]
+pub(super) struct TextAbove {
+    touches_rows: bool,
+    /// Whether a blank line is below it.
+    is_divided: bool,
+}
+
+impl TextAbove {
+    /// Take a text as the title, which may touch rows above.
+    pub(super) fn begin(&mut self, touches_rows: bool) {
+        *self = Self {
+            touches_rows,
+            is_divided: false,
+        };
+    }
+
+    /// Go on behind a blank line.
+    pub(super) fn divide(&mut self) {
+        self.is_divided = true;
+    }
+
+    /// Tell whether the next text is the title in its place, and take that.
+    pub(super) fn gives_way(&mut self) -> bool {
+        let gives_way = self.touches_rows;
+        if gives_way {
+            self.begin(!self.is_divided);
+        }
+        gives_way
+    }
+}
+
 /// Take a comment such as `# x y` for the names of columns.
 pub(super) fn commented_names(line: &str, separator: char) -> Option<Fields<'_>> {
     let is_mark = |it: char| ['"', ' ', '\t', '/'].contains(&it) || COMMENT_MARKS.contains(&it);

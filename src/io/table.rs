@@ -32,7 +32,7 @@ use super::decimals::Decimals;
 use super::error::{Place, Problem, ReadError, WriteError};
 use super::format::{ExportRow, FileUnit, Format, Writing};
 use super::loss::LossReport;
-use super::point_section::{PointSection, commented_names};
+use super::point_section::{PointSection, TextAbove, commented_names};
 use super::polygon::FilePolygon;
 use super::reading::{Reading, Remark, Remarks};
 use super::table_columns::{COLUMNS, ColumnChoice, ColumnNames, WEIGHT, vertex_columns};
@@ -251,10 +251,8 @@ fn sections<'a>(all: Lines<'a>, comments: &mut Comments) -> Result<Vec<Section<'
 struct TitleAbove<'a> {
     /// The line that becomes the title.
     line: Option<TableLine<'a>>,
-    /// Whether it touches the rows above, and may end these: then the next text is the title.
-    touches_rows: bool,
-    /// Whether a blank line is below a text that touches rows.
-    is_divided: bool,
+    /// What is known of it.
+    text: TextAbove,
     /// Whether the line before is a row.
     is_below_row: bool,
 }
@@ -265,7 +263,7 @@ impl<'a> TitleAbove<'a> {
         let above = self.line.clone();
         match &line.content {
             LineContent::Blank => {
-                self.is_divided |= self.touches_rows;
+                self.text.divide();
                 self.is_below_row = false;
             }
             LineContent::Comment => {}
@@ -275,11 +273,11 @@ impl<'a> TitleAbove<'a> {
                 self.is_below_row = true;
             }
             LineContent::Fields(_) => {
-                if self.line.is_none() || self.touches_rows {
+                if self.line.is_none() {
                     self.line = Some(line.without_content());
-                    let goes_on = self.touches_rows && !self.is_divided;
-                    self.touches_rows = self.is_below_row || goes_on;
-                    self.is_divided = false;
+                    self.text.begin(self.is_below_row);
+                } else if self.text.gives_way() {
+                    self.line = Some(line.without_content());
                 }
                 self.is_below_row = false;
             }

@@ -11,7 +11,7 @@ use super::decimals::{Decimals, is_number, measured};
 use super::error::{Place, Problem, ReadError};
 use super::exchange::short_names::{CUT, is_cut, short};
 use super::exchange::spending::most_items;
-use super::point_section::{Content, PointSection, Usual};
+use super::point_section::{Content, PointSection, TextAbove, Usual};
 use super::reading::{Reading, Remark, Remarks, nameless};
 use super::table_columns::{
     COLUMNS, ColumnChoice, ColumnNames, Coordinates, WEIGHT, are_units, columns,
@@ -580,8 +580,7 @@ impl<'a> PointReader<'a> {
         };
         let mut title_above: Option<(usize, String)> = None;
         let (mut lists, mut begin) = (self.lists.len(), 0);
-        // Whether the title above touches the rows before, and whether a blank line is below it.
-        let (mut touches, mut is_divided) = (false, false);
+        let mut text = TextAbove::default();
         for (line, fields) in section.split() {
             let Some(fields) = fields else {
                 if blocks.is_open() {
@@ -591,7 +590,7 @@ impl<'a> PointReader<'a> {
                     blocks.end(title_above.take());
                 } else {
                     blocks.keep_last_end();
-                    is_divided = true;
+                    text.divide();
                 }
                 continue;
             };
@@ -614,19 +613,18 @@ impl<'a> PointReader<'a> {
                 Ok(Found::Text) if fields.lack_a_number() => self.skipped.push(line.number),
                 Ok(Found::Text) => match title(line.text) {
                     Some(title) if is_first => {
-                        touches = false;
+                        text.begin(false);
                         self.tell_title(line.number, &fields, &title);
                         title_above = Some((line.number, title));
                     }
                     // Below rows the last text is the title, those before belong to what is above.
-                    Some(title) if !blocks.is_open() && !blocks.ends.is_empty() && touches => {
+                    Some(title) if !blocks.is_open() && text.gives_way() => {
                         self.tell_title(line.number, &fields, &title);
                         let above = title_above.replace((line.number, title));
                         self.skipped.extend(above.map(|(line, _)| line));
-                        touches = !is_divided;
                     }
                     Some(title) if blocks.rows.len() >= begin + LEAST_TITLED => {
-                        (touches, is_divided) = (true, false);
+                        text.begin(true);
                         lists += 1;
                         self.check_count(lists, line.number)?;
                         begin = blocks.rows.len();
