@@ -2,13 +2,16 @@
 
 use std::path::PathBuf;
 
-use batten::document::{Document, Edit};
+use batten::document::{Document, Edit, Reference};
 use batten::editor::{Command, Editor, FileAnswer};
 use batten::geometry::expressions::LengthUnit;
+use batten::geometry::references::ReferenceCurve;
 use batten::io::exchange::import::ImportChoice;
+use batten::operations::Value;
 use tempfile::TempDir;
 
 use crate::drawings::{dxf, uneven_spline};
+use crate::script::Script;
 
 fn file(folder: &TempDir, name: &str, text: &str) -> PathBuf {
     let path = folder.path().join(name);
@@ -182,6 +185,26 @@ fn references_become_float_polygons_within_the_tolerance() {
         let point = reference.derivatives(t, 0)[0];
         let off = curve.polygon.nearest(point).distance;
         assert!(off <= 1e-3, "{t}: {off}");
+    }
+}
+
+#[test]
+fn curves_in_the_place_of_several_references_are_not_compared() {
+    let references = ["circle", "ellipse:a=2,b=1"].map(|form| {
+        let curve = ReferenceCurve::from_text(form).expect("a reference");
+        Reference::new(form, curve)
+    });
+    let document = Document::default().with_references(references);
+    let mut script = Script {
+        editor: Editor::with_document(document),
+    };
+    script.try_out("to-float").expect("a preview");
+    script.set("references", Value::Choice(2)).expect("all");
+    let made = script.made_curves();
+    assert_eq!(made.len(), 2);
+    for curve in made {
+        script.editor.activate(curve);
+        assert_eq!(script.editor.sight().compared(), None);
     }
 }
 
