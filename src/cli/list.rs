@@ -154,7 +154,7 @@ impl ListedItem {
             vertices: (vertices > 0).then_some(vertices),
             group: item.group.join("/"),
             name: item.name.clone(),
-            block: item.block.clone(),
+            block: item.block.as_deref().map(str::to_owned),
             curve: is_curve,
         }
     }

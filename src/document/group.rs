@@ -3,6 +3,7 @@
 use std::convert::Infallible;
 use std::fmt;
 use std::str::FromStr;
+use std::sync::Arc;
 
 /// Separates the names of a path.
 const SEPARATOR: char = '/';
@@ -15,7 +16,7 @@ const ESCAPE: char = '\\';
 /// No name is empty or begins or ends with a space. A path is shown and typed with `/` between its names; within
 /// a name `/` is shown as `\/`, and `\` as `\\`.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Group(Vec<String>);
+pub struct Group(Arc<[String]>);
 
 impl Group {
     /// Make a group of the names of its path. Spaces around names and empty names are dropped.
@@ -37,12 +38,12 @@ impl Group {
 
     /// Whether another group is this one or lies within it. Nothing lies within no group.
     pub fn holds(&self, other: &Self) -> bool {
-        !self.is_none() && other.0.starts_with(&self.0)
+        !self.is_none() && other.names().starts_with(&self.0)
     }
 
     /// The innermost group that holds both; none if there is none.
     pub fn shared(&self, other: &Self) -> Self {
-        let names = self.0.iter().zip(&other.0);
+        let names = self.names().iter().zip(other.names());
         let names = names.take_while(|(own, other)| own == other);
         Self(names.map(|(name, _)| name.clone()).collect())
     }
@@ -50,7 +51,7 @@ impl Group {
     /// The group that this one lies within; none outside of all.
     pub fn outer(&self) -> Self {
         let outer = self.0.split_last().map_or(&[][..], |(_, outer)| outer);
-        Self(outer.to_vec())
+        Self(outer.into())
     }
 
     /// The group after this path, or its beginning, was renamed; `None` if it does not lie within `from`.
@@ -58,7 +59,7 @@ impl Group {
         if !from.holds(self) {
             return None;
         }
-        let inner = self.0.strip_prefix(from.0.as_slice())?;
+        let inner = self.names().strip_prefix(from.names())?;
         Some(Self(to.0.iter().chain(inner).cloned().collect()))
     }
 }
@@ -110,7 +111,7 @@ mod tests {
     use super::*;
 
     fn names(text: &str) -> Vec<String> {
-        Group::from(text).0
+        Group::from(text).names().to_vec()
     }
 
     #[test]

@@ -162,7 +162,7 @@ fn reading(items: Vec<Item>) -> Reading {
 #[test]
 fn the_pieces_of_an_item_are_a_group_and_so_is_a_block() {
     let mut block = item(Kind::Line, &["Layer"], Some("bolt"), 1);
-    block.block = Some("Rivet".to_owned());
+    block.block = Some("Rivet".into());
     let reading = reading(vec![
         item(Kind::Polycurve, &["Layer"], Some("rail"), 2),
         item(Kind::Polycurve, &[], Some("rail"), 2),

@@ -54,7 +54,7 @@ fn a_file_without_a_unit_waits_for_what_is_taken() {
     assert!(editor.document().is_empty(), "nothing yet");
     let answer = choices(&editor, |choice| {
         choice.unit = Some(LengthUnit::Inch);
-        choice.taken.retain(|key| key.layer == ["Deck"]);
+        choice.taken.retain(|key| key.layer[..] == ["Deck"]);
     });
     let note = editor.answer_files(answer).expect("what is chosen");
     assert!(editor.filing().import_question().is_none());

@@ -1,6 +1,7 @@
 //! What is taken of a file of another program.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use super::drawing::{Item, Kind, Space};
 use crate::document::Group;
@@ -15,7 +16,7 @@ pub struct RowKey {
     /// Where they belong.
     pub space: Space,
     /// The path of the layer, outermost first; empty for none.
-    pub layer: Vec<String>,
+    pub layer: Arc<[String]>,
     /// The entity of the file.
     pub kind: Kind,
 }
@@ -47,7 +48,7 @@ impl RowKey {
     pub fn layer_name(&self) -> String {
         match self.layer.is_empty() {
             true => NO_LAYER.to_owned(),
-            false => Group::new(&self.layer).to_string(),
+            false => Group::new(&self.layer[..]).to_string(),
         }
     }
 }

@@ -4,6 +4,7 @@
 //! file (blocks, transforms, extrusions, assemblies), so that every point is where the user sees it.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
@@ -45,12 +46,12 @@ pub struct Item {
     pub kind: Kind,
     /// Its pieces: one, but for polycurves and paths.
     pub shapes: Vec<Shape>,
-    /// The path of its layers or groups, outermost first; empty where there is none.
-    pub group: Vec<String>,
+    /// The path of its layers or groups, outermost first; empty where there is none. Items of one layer share it.
+    pub group: Arc<[String]>,
     /// Its name, if the file gives one.
     pub name: Option<String>,
     /// The block or symbol from which it was inserted.
-    pub block: Option<String>,
+    pub block: Option<Arc<str>>,
     /// Red, green and blue, if the file gives a colour.
     pub colour: Option<[u8; 3]>,
     /// Whether the file hides it, or its layer.
@@ -209,6 +210,29 @@ impl Unreadable {
             (Some(at), true) => Problem::Drawing(format!("byte {at}: {reason}")).into(),
             (None, _) => Problem::Drawing(reason).into(),
         }
+    }
+}
+
+impl Item {
+    /// The bytes of its names, without the path and the block that it shares with the item before it.
+    pub(super) fn texts_size(&self, before: Option<&Self>) -> usize {
+        /// What an allocation costs beside its contents.
+        const ALLOCATION: usize = 16;
+        let path = self
+            .group
+            .iter()
+            .map(|name| name.capacity() + size_of::<String>() + ALLOCATION);
+        let is_own = before.is_none_or(|it| !Arc::ptr_eq(&it.group, &self.group));
+        let path = if is_own { path.sum() } else { 0 };
+        let block = self.block.as_ref().filter(|block| {
+            let before = before.and_then(|it| it.block.as_ref());
+            before.is_none_or(|it| !Arc::ptr_eq(it, block))
+        });
+        let name = self
+            .name
+            .as_ref()
+            .map_or(0, |name| name.capacity() + ALLOCATION);
+        path + name + block.map_or(0, |block| block.len() + 2 * ALLOCATION)
     }
 }
 
@@ -377,6 +401,15 @@ impl Drawing {
             }
         }
         drawing
+    }
+
+    /// Make the path of the next item: that of the last one where it is the same.
+    pub(super) fn path(&self, names: &[impl AsRef<str>]) -> Arc<[String]> {
+        let names = names.iter().map(AsRef::as_ref);
+        match self.items.last() {
+            Some(last) if names.clone().eq(last.group.iter()) => Arc::clone(&last.group),
+            _ => names.map(str::to_owned).collect(),
+        }
     }
 
     /// Whether nothing was found.

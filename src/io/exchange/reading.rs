@@ -69,12 +69,13 @@ impl Drawing {
             chains: Names::default(),
             points: Vec::new(),
             crowds: HashMap::new(),
+            last_group: Group::default(),
             sources: Default::default(),
             factor,
             is_nameless: self.is_nameless,
         };
         for item in &self.items {
-            *taken.crowds.entry(item.group.clone()).or_default() += 1;
+            *taken.crowds.entry(&item.group).or_default() += 1;
         }
         let items = self.items.iter().enumerate();
         let (chosen, rest): (Vec<_>, Vec<_>) = items.partition(|(_, item)| is_taken(item));
@@ -138,12 +139,23 @@ struct Taken<'d> {
     /// The single points.
     points: Vec<SinglePoint<'d>>,
     /// How many items each group has.
-    crowds: HashMap<Vec<String>, usize>,
+    crowds: HashMap<&'d [String], usize>,
+    /// The group of the last item.
+    last_group: Group,
     /// Of what each curve, then each reference is made.
     sources: [Vec<Option<ShapePlace>>; 2],
     factor: f64,
     /// Whether layers stand for the names of items.
     is_nameless: bool,
+}
+
+/// The names of a group: the path of an item, its block, and the item itself if it has several pieces.
+fn path<'a>(
+    layers: &'a [String],
+    block: Option<&'a str>,
+    chain: Option<&'a str>,
+) -> impl Iterator<Item = &'a str> {
+    layers.iter().map(String::as_str).chain(block).chain(chain)
 }
 
 /// The layer that items without one are on: in DXF, which has no names of items, and in 3DM.
@@ -162,8 +174,8 @@ impl<'d> Taken<'d> {
                 self.chains.free(&name)
             }
         });
-        // The item's path, its block, and the item itself if it has several pieces.
-        let group = Group::new(layers.iter().chain(&item.block).chain(&chain));
+        let group = Group::new(path(layers, item.block.as_deref(), chain.as_deref()));
+        let group = self.shared(group);
         for (index, shape) in item.shapes.iter().enumerate() {
             if let Shape::Point(point) = shape {
                 let point = self.factor * *point;
@@ -193,6 +205,14 @@ impl<'d> Taken<'d> {
         }
     }
 
+    /// The group of the item before, where it is the same.
+    fn shared(&mut self, group: Group) -> Group {
+        if self.last_group != group {
+            self.last_group = group;
+        }
+        self.last_group.clone()
+    }
+
     /// Tell that a chain of Béziers is too long to look for its float polygon.
     fn tell_long_chain(&mut self, name: &str, curve: &ReferenceCurve) {
         if let ReferenceForm::Nurbs(nurbs) = curve.form()
@@ -216,7 +236,7 @@ impl<'d> Taken<'d> {
 
     /// Whether so many items are all that its layer has, in a format that has layers in place of names.
     fn are_layer(&self, item: &Item, count: usize) -> bool {
-        let on_layer = self.crowds.get(&item.group);
+        let on_layer = self.crowds.get(&item.group[..]);
         self.is_nameless && on_layer == Some(&count) && item.block.is_none()
     }
 
@@ -312,7 +332,7 @@ impl<'d> Taken<'d> {
             Some((layers, block)) => match &layers[..] {
                 [layer] if is_default(layer, self.is_nameless) => (None, Group::new(block)),
                 [outer @ .., layer] if are_layer => (Some(layer.as_str()), Group::new(outer)),
-                layers => (None, Group::new(layers.iter().chain(block))),
+                layers => (None, Group::new(path(layers, block.as_deref(), None))),
             },
         };
         let name_of_all = name.flatten().or(own).unwrap_or("points");

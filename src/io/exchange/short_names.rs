@@ -61,8 +61,8 @@ impl Drawing {
     /// Tell whether names were cut.
     pub(in crate::io) fn tell_cut_names(&mut self) {
         let mut names = self.items.iter().flat_map(|item| {
-            let names = item.group.iter().chain(&item.name).chain(&item.block);
-            names.map(String::as_str)
+            let names = item.group.iter().chain(&item.name).map(String::as_str);
+            names.chain(item.block.as_deref())
         });
         if names.any(is_cut) {
             self.remarks.push(CUT.to_owned());

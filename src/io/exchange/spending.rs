@@ -75,11 +75,9 @@ impl Spending {
         self.memory = self.memory.saturating_add(shape_size(shape));
     }
 
-    /// Count an item without its shapes; `false` if it is beyond the limits.
-    pub fn keep(&mut self, item: &Item) -> bool {
-        let texts = item.group.iter().chain(&item.name).chain(&item.block);
-        let texts = texts.map(|text| text.capacity().saturating_add(size_of::<String>()));
-        let size = texts.fold(size_of::<Item>(), usize::saturating_add);
+    /// Count an item behind another, without its shapes; `false` if it is beyond the limits.
+    pub fn keep(&mut self, item: &Item, before: Option<&Item>) -> bool {
+        let size = size_of::<Item>().saturating_add(item.texts_size(before));
         if self.is_over() {
             return false;
         }

@@ -1,5 +1,7 @@
 //! What a document becomes in a format of another program.
 
+use std::sync::Arc;
+
 use super::cubics::Cubics;
 use super::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
 use crate::document::{Curve, Document, Group, Reference};
@@ -118,7 +120,7 @@ impl Item {
         manner.marks.report(&curve.name, is_coloured, &mut own);
         let shape = manner.written.shape(curve, &mut own);
         let item = Self {
-            group: curve.group.names().to_vec(),
+            group: curve.group.names().into(),
             colour: curve.colour.map(|colour| colour.0),
             ..named(&curve.name, Kind::Spline, shape)
         };
@@ -142,7 +144,7 @@ impl Item {
         own.add_state(&reference.name, reference.visible, reference.locked);
         let items = shapes.into_iter().filter_map(|shape| {
             let named = |shape: Shape| Self {
-                group: reference.group.names().to_vec(),
+                group: reference.group.names().into(),
                 colour: reference.colour.map(|colour| colour.0),
                 ..named(&reference.name, kind, shape)
             };
@@ -225,7 +227,7 @@ fn named(name: &str, kind: Kind, shape: Shape) -> Item {
     Item {
         kind,
         shapes: vec![shape],
-        group: Vec::new(),
+        group: Arc::default(),
         name: Some(name.to_owned()),
         block: None,
         colour: None,

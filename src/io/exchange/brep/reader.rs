@@ -1,6 +1,7 @@
 //! The walk from a file's root shape to its edges.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -317,7 +318,7 @@ impl Reader {
         let item = Item {
             kind,
             shapes,
-            group: Vec::new(),
+            group: Arc::default(),
             name: None,
             block: None,
             colour: None,
@@ -325,7 +326,7 @@ impl Reader {
             space,
             at: line,
         };
-        if self.spending.keep(&item) {
+        if self.spending.keep(&item, self.drawing.items.last()) {
             self.drawing.items.push(item);
         }
     }

@@ -1,5 +1,7 @@
 //! Tests with small files and closed forms.
 
+use std::sync::Arc;
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
@@ -194,7 +196,7 @@ fn item(kind: Kind, shapes: Vec<Shape>) -> Item {
     Item {
         kind,
         shapes,
-        group: Vec::new(),
+        group: Arc::default(),
         name: None,
         block: None,
         colour: None,

@@ -93,7 +93,7 @@ impl<'d> File<'d> {
             Ok((name, group, spline)) => self.add(Item {
                 kind: Kind::Spline,
                 shapes: vec![Shape::Nurbs(spline)],
-                group,
+                group: self.drawing.path(&group),
                 name,
                 block: None,
                 colour: None,
@@ -112,7 +112,7 @@ impl<'d> File<'d> {
         item.shapes
             .iter()
             .for_each(|it| self.spending.keep_shape(it));
-        if self.spending.keep(&item) {
+        if self.spending.keep(&item, self.drawing.items.last()) {
             self.drawing.items.push(item);
             return;
         }

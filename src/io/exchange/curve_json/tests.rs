@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 use glam::DVec3;
@@ -11,7 +13,7 @@ fn item(shape: Shape) -> Item {
     Item {
         kind: Kind::Spline,
         shapes: vec![shape],
-        group: Vec::new(),
+        group: Arc::default(),
         name: None,
         block: None,
         colour: None,
@@ -44,7 +46,7 @@ fn sample() -> Drawing {
         periodic: true,
     }));
     first.name = Some("a \"b\" \\ ü\n".to_owned());
-    first.group = vec!["hull".to_owned(), "frames 1".to_owned()];
+    first.group = ["hull".to_owned(), "frames 1".to_owned()].into();
     let second = item(Shape::Nurbs(Nurbs {
         degree: 1,
         knots: vec![0.0, 0.0, 1.0, 1.0],
@@ -118,7 +120,7 @@ fn knots_may_be_missing_and_groups_a_list() {
     };
     assert_eq!(curve.knots, [0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 2.0]);
     assert_eq!(curve.weights, None);
-    assert_eq!(found.items[0].group, ["a/b", "c"]);
+    assert_eq!(found.items[0].group[..], ["a/b", "c"]);
 }
 
 #[test]

@@ -2,11 +2,13 @@
 
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::colours::Paint;
 use super::groups::Groups;
+use super::layers::Layer;
 use super::notes::Notes;
 use super::parts::{Content, Insert, Part, Parts};
 use super::sections::Sections;
@@ -38,6 +40,8 @@ pub struct Placer<'a, 'n> {
     open: Vec<usize>,
     /// The layers that the file hides and that have items.
     hidden: BTreeSet<String>,
+    /// How many entities the file marks as invisible, themselves or their blocks, and the place of the first.
+    invisible: (usize, u64),
     /// How many entities and blocks inserts drew.
     drawn: usize,
     /// The most entities and blocks that inserts may draw.
@@ -63,7 +67,11 @@ struct Setting {
 struct Around {
     layer: String,
     colour: Option<[u8; 3]>,
-    block: String,
+    block: Arc<str>,
+    /// Whether the insert is marked as invisible, or lies in one that is.
+    is_invisible: bool,
+    /// The frozen layer of the insert, or of one that it lies in.
+    frozen: Option<Arc<str>>,
 }
 
 impl<'a, 'n> Placer<'a, 'n> {
@@ -81,6 +89,7 @@ impl<'a, 'n> Placer<'a, 'n> {
             parts: HashMap::new(),
             open: Vec::new(),
             hidden: BTreeSet::new(),
+            invisible: (0, 0),
             drawn: 0,
             most: most_items(size),
             memory: 0,
@@ -144,20 +153,22 @@ impl<'a, 'n> Placer<'a, 'n> {
             );
             return;
         }
-        let layer = self.layer(part, setting);
         let around = setting.insert.as_ref();
-        let row = self.sections.layers.find(&layer);
-        let is_hidden = row.is_some_and(|row| row.is_hidden);
+        let name = layer_name(part, around);
+        let layer = self.sections.layers.find(name);
         let item = Item {
             kind,
             shapes,
-            colour: self.colour(part, &layer, around),
-            hidden: is_hidden,
+            colour: colour(part, layer, around),
+            hidden: self.is_hidden(part, layer, around),
             name: None,
-            block: around.map(|around| around.block.clone()),
+            block: around.map(|around| Arc::clone(&around.block)),
             space: setting.space,
             at: part.at,
-            group: vec![self.spelled(layer)],
+            // The table has the usual spelling.
+            group: self
+                .drawing
+                .path(&[layer.map_or(name, |layer| &layer.name)]),
         };
         self.drawing.items.push(item);
     }
@@ -171,14 +182,21 @@ impl<'a, 'n> Placer<'a, 'n> {
             return;
         }
         let parts = self.parts_of(insert.block);
-        let layer = self.layer(part, setting);
+        let around = setting.insert.as_ref();
+        let name = layer_name(part, around);
+        let layer = sections.layers.find(name);
+        let frozen = layer
+            .filter(|it| it.is_frozen)
+            .map(|it| it.name.as_str().into());
         let mut inner = Setting {
             place: setting.place,
             space: setting.space,
             insert: Some(Around {
-                colour: self.colour(part, &layer, setting.insert.as_ref()),
-                layer,
-                block: block.name.clone(),
+                layer: name.to_owned(),
+                colour: colour(part, layer, around),
+                block: block.name.as_str().into(),
+                is_invisible: part.is_invisible || around.is_some_and(|it| it.is_invisible),
+                frozen: frozen.or_else(|| around?.frozen.clone()),
             }),
         };
         self.open.push(insert.block);
@@ -254,30 +272,23 @@ impl<'a, 'n> Placer<'a, 'n> {
         found
     }
 
-    fn layer(&self, part: &Part, setting: &Setting) -> String {
-        match &setting.insert {
-            Some(around) if part.layer == LAYER_OF_INSERT => around.layer.clone(),
-            _ => part.layer.clone(),
+    /// Whether a curve is not drawn, for a reason that will be told.
+    fn is_hidden(&mut self, part: &Part, layer: Option<&Layer>, around: Option<&Around>) -> bool {
+        let is_invisible = part.is_invisible || around.is_some_and(|it| it.is_invisible);
+        if is_invisible {
+            let (count, first) = &mut self.invisible;
+            *first = if *count == 0 { part.at } else { *first };
+            *count = count.saturating_add(1);
         }
-    }
-
-    fn colour(&self, part: &Part, layer: &str, around: Option<&Around>) -> Option<[u8; 3]> {
-        match part.paint {
-            Paint::Own(colour) => colour,
-            Paint::Layer => self.sections.layers.find(layer)?.colour,
-            Paint::Block => around?.colour,
+        let own = layer
+            .filter(|layer| layer.is_hidden())
+            .map(|it| it.name.as_str());
+        let frozen = around.and_then(|around| around.frozen.as_deref());
+        let hiding = own.or(frozen);
+        if let Some(name) = hiding.filter(|name| !self.hidden.contains(*name)) {
+            self.hidden.insert(name.to_owned());
         }
-    }
-
-    /// Spell a layer as the table does.
-    fn spelled(&mut self, name: String) -> String {
-        let Some(layer) = self.sections.layers.find(&name) else {
-            return name;
-        };
-        if layer.is_hidden && !self.hidden.contains(&layer.name) {
-            self.hidden.insert(layer.name.clone());
-        }
-        layer.name.clone()
+        is_invisible || hiding.is_some()
     }
 
     fn count_other(&mut self, name: &str, at: u64) {
@@ -299,6 +310,17 @@ impl<'a, 'n> Placer<'a, 'n> {
     }
 
     fn note_hidden(&mut self) {
+        let (count, first) = self.invisible;
+        match count {
+            0 => {}
+            1 => self
+                .notes
+                .add(first, "an entity is marked as invisible, it is hidden"),
+            _ => self.notes.add(
+                first,
+                format_args!("{count} entities are marked as invisible, they are hidden"),
+            ),
+        }
         let names: Vec<&str> = self
             .hidden
             .iter()
@@ -316,6 +338,22 @@ impl<'a, 'n> Placer<'a, 'n> {
         self.notes.add_whole(format!(
             "layers that are off or frozen, their curves are hidden: {names}{more}"
         ));
+    }
+}
+
+/// The layer of an entity; in blocks the layer 0 is that of the insert.
+fn layer_name<'a>(part: &'a Part, around: Option<&'a Around>) -> &'a str {
+    match around {
+        Some(around) if part.layer == LAYER_OF_INSERT => &around.layer,
+        _ => &part.layer,
+    }
+}
+
+fn colour(part: &Part, layer: Option<&Layer>, around: Option<&Around>) -> Option<[u8; 3]> {
+    match part.paint {
+        Paint::Own(colour) => colour,
+        Paint::Layer => layer?.colour,
+        Paint::Block => around?.colour,
     }
 }
 

@@ -16,14 +16,23 @@ pub struct Layer {
     pub name: String,
     /// Its colour, if it is more than a contrast with the background.
     pub colour: Option<[u8; 3]>,
-    /// Whether it is off or frozen.
-    pub is_hidden: bool,
+    /// Whether it is off: its own entities are not drawn.
+    pub is_off: bool,
+    /// Whether it is frozen: what blocks on it hold is not drawn either.
+    pub is_frozen: bool,
 }
 
 /// The layers by name; large and small letters are alike.
 #[derive(Debug, Default)]
 pub struct Layers {
     rows: HashMap<String, Layer>,
+}
+
+impl Layer {
+    /// Whether its own entities are not drawn.
+    pub fn is_hidden(&self) -> bool {
+        self.is_off || self.is_frozen
+    }
 }
 
 impl Layers {
@@ -47,7 +56,8 @@ impl Layers {
         let layer = Layer {
             name,
             colour,
-            is_hidden: is_off || is_frozen,
+            is_off,
+            is_frozen,
         };
         self.rows.entry(layer.name.to_lowercase()).or_insert(layer);
         Ok(())

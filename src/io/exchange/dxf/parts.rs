@@ -31,6 +31,8 @@ pub struct Part {
     pub paint: Paint,
     /// Whether it is marked as of paper space.
     pub is_paper: bool,
+    /// Whether the file marks it as invisible.
+    pub is_invisible: bool,
     /// Its line or byte, from 1.
     pub at: u64,
 }
@@ -90,10 +92,6 @@ impl<'a, 's> Parts<'a, 's> {
 
     fn part(&mut self, record: &Record<'a>, notes: &mut Notes) -> Result<Part, Trouble> {
         let content = self.content(record, notes)?;
-        let is_other = matches!(content, Content::Other(_));
-        if !is_other && record.integer(60)? == 1 {
-            return Err(record.trouble("the file marks it as invisible"));
-        }
         let decoder = &self.sections.decoder;
         let layer = record.text(8).filter(|name| !name.is_empty());
         Ok(Part {
@@ -101,6 +99,7 @@ impl<'a, 's> Parts<'a, 's> {
             layer: decoder.decode(layer.unwrap_or(b"0")),
             paint: paint(record)?,
             is_paper: record.integer(67)? == 1,
+            is_invisible: record.integer(60)? == 1,
             at: record.at,
         })
     }

@@ -1,5 +1,7 @@
 //! Reads glyphs.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use roxmltree::{Document, Node, NodeId};
 
@@ -121,7 +123,7 @@ impl Reader<'_> {
         self.drawing.items.push(Item {
             kind: Kind::Path,
             shapes,
-            group: Vec::new(),
+            group: Arc::default(),
             name: self.name.map(short),
             block: None,
             colour: None,

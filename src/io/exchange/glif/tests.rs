@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::{read, write};
@@ -252,7 +254,7 @@ fn what_glif_cannot_hold_is_refused_by_name() {
         let item = Item {
             kind: Kind::Spline,
             shapes: vec![shape],
-            group: Vec::new(),
+            group: Arc::default(),
             name: Some("keel".to_owned()),
             block: None,
             colour: None,

@@ -1,6 +1,7 @@
 //! The walk over a file's entities.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
@@ -83,8 +84,8 @@ struct Context {
     place: Affine,
     /// The instance's own space; without an instance, each entity has its own.
     space: Option<Space>,
-    group: Vec<String>,
-    block: Option<String>,
+    group: Arc<[String]>,
+    block: Option<Arc<str>>,
 }
 
 impl<'a> Reader<'a> {
@@ -254,7 +255,7 @@ impl<'a> Reader<'a> {
                 context
                     .block
                     .clone()
-                    .unwrap_or_else(|| subfigure.name.clone()),
+                    .unwrap_or_else(|| subfigure.name.as_str().into()),
             ),
         };
         self.enter(definition)?;
@@ -331,19 +332,19 @@ impl<'a> Reader<'a> {
             space: self.space(entry, context),
             at: entry.line,
         };
-        if self.spending.keep(&item) {
+        if self.spending.keep(&item, self.drawing.items.last()) {
             self.hidden = self.hidden.saturating_add(usize::from(entry.is_hidden));
             self.flat = self.flat.saturating_add(usize::from(entry.usage == 5));
             self.drawing.items.push(item);
         }
     }
 
-    fn group(&self, entry: &Entry, context: &Context) -> Vec<String> {
+    fn group(&self, entry: &Entry, context: &Context) -> Arc<[String]> {
         let own = self.links.group(entry);
         if own.is_empty() {
-            context.group.clone()
+            Arc::clone(&context.group)
         } else {
-            own
+            self.drawing.path(&own)
         }
     }
 

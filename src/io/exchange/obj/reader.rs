@@ -1,5 +1,7 @@
 //! Reads statements.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::super::remarks::Remarks;
@@ -64,7 +66,7 @@ struct Reader {
     known: usize,
     vertices: Vec<(DVec3, f64)>,
     name: Option<String>,
-    group: Vec<String>,
+    group: Arc<[String]>,
     /// The kind of curves, and whether they are rational.
     basis: Option<(String, bool)>,
     degree: Option<usize>,
@@ -114,7 +116,7 @@ impl Reader {
         match word {
             "v" => self.vertices.push(vertex(rest)?),
             "o" => self.name = Some(short(rest)).filter(|it| !it.is_empty()),
-            "g" => self.group = group(rest),
+            "g" => self.group = group(rest).into(),
             "cstype" => self.basis = Some(basis(rest)),
             "deg" => self.degree = Some(number(rest.split_whitespace().next())?),
             "curv" => self.curve(rest)?,
@@ -275,9 +277,19 @@ impl Reader {
     }
 
     fn push(&mut self, kind: Kind, shape: Shape, at: u64) {
-        let names = self.group.iter().chain(&self.name);
-        let names: usize = names.map(|it| size_of::<String>() + it.len()).sum();
-        self.spent += 1 + names / NAME_BYTES;
+        let item = Item {
+            kind,
+            shapes: vec![shape],
+            group: Arc::clone(&self.group),
+            name: self.name.clone(),
+            block: None,
+            colour: None,
+            hidden: false,
+            space: Space::Model,
+            at,
+        };
+        let texts = item.texts_size(self.drawing.items.last());
+        self.spent += 1 + texts / NAME_BYTES;
         if self.spent > ITEM_LIMIT {
             if !self.full {
                 let count = self.drawing.items.len();
@@ -288,17 +300,7 @@ impl Reader {
             self.full = true;
             return;
         }
-        self.drawing.items.push(Item {
-            kind,
-            shapes: vec![shape],
-            group: self.group.clone(),
-            name: self.name.clone(),
-            block: None,
-            colour: None,
-            hidden: false,
-            space: Space::Model,
-            at,
-        });
+        self.drawing.items.push(item);
     }
 }
 

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use std::f64::consts::TAU;
 
 use glam::DVec3;
@@ -55,7 +57,7 @@ fn splines_with_knots_names_and_groups() {
         (item.kind, item.name.as_deref(), item.at),
         (Kind::Spline, Some("keel"), 10)
     );
-    assert_eq!(item.group, ["hull", "frames 1"]);
+    assert_eq!(item.group[..], ["hull", "frames 1"]);
     assert_eq!(found.unit, Some(25.4));
     let curve = spline(&found);
     assert_eq!((curve.degree, &curve.points[..]), (2, &corners()[..]));
@@ -271,7 +273,7 @@ fn sample() -> Drawing {
         .map(|(kind, shape)| Item {
             kind,
             shapes: vec![shape],
-            group: Vec::new(),
+            group: Arc::default(),
             name: None,
             block: None,
             colour: None,
@@ -282,8 +284,8 @@ fn sample() -> Drawing {
         .collect();
     items[0].name = Some("the keel".to_owned());
     items[1].name = Some("the keel".to_owned());
-    items[1].group = vec!["hull".to_owned(), "frame 1".to_owned()];
-    items[3].group = vec!["hull".to_owned()];
+    items[1].group = ["hull".to_owned(), "frame 1".to_owned()].into();
+    items[3].group = ["hull".to_owned()].into();
     Drawing {
         unit: Some(25.4),
         items,

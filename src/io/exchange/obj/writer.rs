@@ -1,6 +1,7 @@
 //! Writes statements.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -17,7 +18,7 @@ pub(super) fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable
     if let Some(unit) = drawing.unit {
         writer.put(format_args!("{UNIT} {unit} mm"));
     }
-    let (mut name, mut group) = (None, Vec::new());
+    let (mut name, mut group) = (None, Arc::default());
     for item in &drawing.items {
         if item.name != name {
             writer.put(format_args!(
@@ -28,7 +29,7 @@ pub(super) fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable
         }
         if item.group != group {
             writer.put(format_args!("g {}", group_name(&item.group)));
-            group = item.group.clone();
+            group = Arc::clone(&item.group);
         }
         for shape in &item.shapes {
             writer

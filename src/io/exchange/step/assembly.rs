@@ -1,7 +1,7 @@
 //! Where each representation is placed: by relationships between representations and by mapped items.
 
 use std::collections::HashMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use glam::DMat3;
 
@@ -203,7 +203,7 @@ impl<'a> Builder<'a, '_> {
             let place = (place != Affine::default()).then_some(place);
             let placement = Placement {
                 place,
-                block: block.map(Rc::from),
+                block: block.map(Arc::from),
                 style,
             };
             self.insertions.push(Insertion {

@@ -1,6 +1,6 @@
 //! From insertions of parts into assemblies to the placements of every part.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::styles::Style;
 use crate::io::exchange::drawing::Affine;
@@ -17,7 +17,7 @@ pub struct Placement<'a> {
     /// Where it is; none for identity.
     pub place: Option<Affine>,
     /// The product that was inserted.
-    pub block: Option<Rc<str>>,
+    pub block: Option<Arc<str>>,
     /// What the inserted item says of the look.
     pub style: Style<'a>,
 }

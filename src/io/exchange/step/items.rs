@@ -209,9 +209,9 @@ impl<'a> Walk<'a, '_> {
             self.drawing.items.push(Item {
                 kind: found.kind,
                 shapes,
-                group: style.group(),
+                group: self.drawing.path(&style.group()),
                 name: name.clone(),
-                block: placement.block.as_deref().map(str::to_owned),
+                block: placement.block.clone(),
                 colour: style.colour,
                 hidden: false,
                 space,

@@ -1,5 +1,7 @@
 //! Tests of the writer, by reading back, and of damaged files.
 
+use std::sync::Arc;
+
 use std::f64::consts::TAU;
 
 use glam::{DVec3, dvec3};
@@ -13,7 +15,7 @@ fn item(kind: Kind, shape: Shape) -> Item {
     Item {
         kind,
         shapes: vec![shape],
-        group: Vec::new(),
+        group: Arc::default(),
         name: None,
         block: None,
         colour: None,
@@ -143,11 +145,11 @@ fn every_sort_reads_back_bit_for_bit() {
 fn groups_names_colours_and_units_read_back() {
     let mut items = sorts();
     for (place, item) in items.iter_mut().enumerate() {
-        item.group = vec!["layer".to_owned(), format!("n\u{b0} {}", place % 3)];
+        item.group = ["layer".to_owned(), format!("n\u{b0} {}", place % 3)].into();
         item.name = Some(format!("it's {place} \u{1f600}"));
         item.colour = Some([place as u8, 255, 17]);
     }
-    items[0].group.clear();
+    items[0].group = Arc::default();
     items[1].colour = None;
     for unit in [1.0, 1000.0, 10.0, 25.4, 304.8, 1e-3, 0.123] {
         let drawing = Drawing {

@@ -1,6 +1,7 @@
 //! The tree of a drawing: groups, layers, nested drawings, and elements that are used again.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use roxmltree::{Document, Node, NodeId};
 
@@ -108,7 +109,7 @@ fn walk(
     page.remark.into_iter().for_each(|it| walk.remarks.add(it));
     let frame = Frame {
         place: page.place,
-        group: Vec::new(),
+        group: Arc::default(),
         block: None,
         style: Style::default().of(root, &walk.sheet),
         viewport: page.viewport,
@@ -123,8 +124,8 @@ fn walk(
 #[derive(Clone)]
 struct Frame {
     place: Affine,
-    group: Vec<String>,
-    block: Option<String>,
+    group: Arc<[String]>,
+    block: Option<Arc<str>>,
     style: Style,
     viewport: Viewport,
     depth: usize,
@@ -303,10 +304,11 @@ impl<'d> Walk<'d> {
             self.remark(node, "it is skipped because it is nested more than 64 deep");
             return None;
         }
-        let mut group = outer.group.clone();
-        if node.tag_name().name() == "g" {
-            group.extend(group_name(node));
-        }
+        let own = (node.tag_name().name() == "g").then(|| group_name(node));
+        let group = match own.flatten() {
+            Some(name) => outer.group.iter().cloned().chain([name]).collect(),
+            None => Arc::clone(&outer.group),
+        };
         Some(Frame {
             place: self.placed(node, outer),
             group,
@@ -406,7 +408,7 @@ impl<'d> Walk<'d> {
         }
         let mut inner = frame.clone();
         inner.place = inner.place.of(&corner(node, frame));
-        inner.block = Some(short(id));
+        inner.block = Some(short(id).into());
         self.used.push(target.id());
         self.target(node, target, inner);
         self.used.pop();

@@ -52,7 +52,10 @@ impl Maker {
                 shapes,
                 ..self.item.clone()
             };
-            self.room.memory = self.room.memory.saturating_sub(size(&item));
+            self.room.memory = self
+                .room
+                .memory
+                .saturating_sub(size(&item, self.items.last()));
             self.items.push(item);
         } else {
             self.infinite += 1;
@@ -66,14 +69,10 @@ impl Maker {
     }
 }
 
-/// Get about how many bytes an item takes.
-fn size(item: &Item) -> usize {
+/// Get about how many bytes an item takes behind another.
+fn size(item: &Item, before: Option<&Item>) -> usize {
     /// What an allocation costs beside its contents.
     const ALLOCATION: usize = 16;
-    let texts = item.group.iter().chain(&item.name).chain(&item.block);
-    let texts: usize = texts
-        .map(|it| it.len().max(ALLOCATION) + ALLOCATION + size_of::<String>())
-        .sum();
     let shapes = item.shapes.iter().map(|shape| {
         let inner = match shape {
             Shape::Nurbs(nurbs) => {
@@ -84,5 +83,5 @@ fn size(item: &Item) -> usize {
         };
         size_of::<Shape>() + inner + 2 * ALLOCATION
     });
-    size_of::<Item>() + ALLOCATION + texts + shapes.sum::<usize>()
+    size_of::<Item>() + ALLOCATION + item.texts_size(before) + shapes.sum::<usize>()
 }

@@ -1,5 +1,7 @@
 //! Instance definitions (blocks) and references to them.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
 
 use super::chunks::{ANONYMOUS, Archive, CLASS, COMPONENT, Chunk, Chunks};
@@ -11,7 +13,7 @@ use crate::io::exchange::drawing::Affine;
 /// A block: objects that are drawn where references place them.
 pub(super) struct Definition {
     pub(super) id: u128,
-    pub(super) name: String,
+    pub(super) name: Arc<str>,
     pub(super) members: Vec<u128>,
 }
 
@@ -33,7 +35,7 @@ pub(super) fn definition(record: &Chunk, archive: Archive) -> Result<Definition,
         old(&mut data)?
     };
     if definition.name.is_empty() {
-        definition.name = printed(definition.id);
+        definition.name = printed(definition.id).into();
     }
     Ok(definition)
 }
@@ -44,7 +46,7 @@ fn old(data: &mut Cursor) -> Result<Definition, String> {
     Ok(Definition {
         id: data.id()?,
         members: data.ids()?,
-        name: data.text()?,
+        name: data.text()?.into(),
     })
 }
 
@@ -71,7 +73,11 @@ fn new(data: Cursor, archive: Archive) -> Result<Definition, String> {
     } else {
         Vec::new()
     };
-    Ok(Definition { id, name, members })
+    Ok(Definition {
+        id,
+        name: name.into(),
+        members,
+    })
 }
 
 /// The id and the name in a chunk of attributes that many classes share, each if it is given.

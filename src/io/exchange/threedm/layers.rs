@@ -76,13 +76,6 @@ impl Layers {
         path
     }
 
-    /// The bytes of these names.
-    pub(super) fn path_size(&self, index: i32) -> usize {
-        self.chain(index)
-            .map(|layer| layer.name.len() + size_of::<String>())
-            .sum()
-    }
-
     /// Whether the layer or one that it is in is hidden.
     pub(super) fn hidden(&self, index: i32) -> bool {
         self.chain(index).any(|layer| layer.hidden)

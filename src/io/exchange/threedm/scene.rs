@@ -1,6 +1,7 @@
 //! From objects and references to the items of a drawing.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use super::attributes::{Attributes, Source};
 use super::breps;
@@ -35,7 +36,7 @@ pub(super) struct Record<'a> {
 #[derive(Clone, Copy)]
 struct Context<'b> {
     place: Affine,
-    block: Option<&'b str>,
+    block: Option<&'b Arc<str>>,
     colour: Option<[u8; 3]>,
     paper: bool,
     hidden: bool,
@@ -321,24 +322,25 @@ impl Walk<'_, '_> {
         report: &mut Report,
     ) {
         let attributes = &record.attributes;
-        let texts = attributes.name.len() + context.block.map_or(0, str::len);
-        let fixed = 2 * size_of::<Item>() + self.layers.path_size(attributes.layer);
-        if !report.spend(1, fixed + texts + shapes.iter().map(size).sum::<usize>()) {
-            return;
-        }
+        let items = &report.drawing.items;
         let hidden = space != Space::Edge && (context.hidden || self.hidden(attributes));
-        report.hidden += usize::from(hidden);
-        report.drawing.items.push(Item {
+        let item = Item {
             kind,
             shapes,
-            group: self.layers.path(attributes.layer),
+            group: report.drawing.path(&self.layers.path(attributes.layer)),
             name: Some(attributes.name.clone()).filter(|name| !name.is_empty()),
-            block: context.block.map(str::to_owned),
+            block: context.block.map(Arc::clone),
             colour: self.colour(attributes, context),
             hidden,
             space,
             at: place(record.at),
-        });
+        };
+        let texts = item.texts_size(items.last());
+        let shapes = item.shapes.iter().map(size).sum::<usize>();
+        if report.spend(1, 2 * size_of::<Item>() + texts + shapes) {
+            report.hidden += usize::from(hidden);
+            report.drawing.items.push(item);
+        }
     }
 
     fn colour(&self, attributes: &Attributes, context: &Context) -> Option<[u8; 3]> {

@@ -117,12 +117,58 @@ fn layers_give_their_names_and_colours() {
         expected.map(|(name, colour)| (name.to_owned(), colour))
     );
     for item in &drawing.items {
-        assert_eq!(item.hidden, item.group == ["far"]);
+        assert_eq!(item.hidden, item.group[..] == ["far"]);
     }
     assert_eq!(
         drawing.remarks,
         ["layers that are off or frozen, their curves are hidden: far"]
     );
+}
+
+#[test]
+fn what_is_marked_as_invisible_is_hidden() {
+    let found = drawing(&entities(
+        "0 POINT; 10 1; 20 2; 0 POINT; 10 1; 20 2; 60 1; 0 TEXT; 60 1; 0 POINT; 10 3; 20 2; 60 1",
+    ));
+    let hidden: Vec<bool> = found.items.iter().map(|item| item.hidden).collect();
+    assert_eq!(hidden, [false, true, true]);
+    assert_eq!(
+        found.remarks,
+        ["line 12: 2 entities are marked as invisible, they are hidden"]
+    );
+}
+
+#[test]
+fn a_frozen_layer_or_a_mark_of_an_insert_hides_all_in_its_block_and_a_layer_that_is_off_its_own() {
+    let layers = "0 TABLE; 2 LAYER; 0 LAYER; 2 frozen; 70 1; 62 7; 0 LAYER; 2 off; 62 -7; \
+                  0 LAYER; 2 plain; 62 7; 0 ENDTAB";
+    // A block with a point on its own layer and one on that of the insert, alone and within another block.
+    let blocks = "0 BLOCK; 2 a; 10 0; 20 0; 0 POINT; 8 plain; 10 2; 20 0; 0 POINT; 8 0; 10 2; 20 0; 0 ENDBLK; \
+                  0 BLOCK; 2 outer; 10 0; 20 0; 0 INSERT; 8 plain; 2 a; 10 0; 20 0; 0 ENDBLK";
+    let hidden_by = |insert: &str| {
+        let found = drawing(&file(&[
+            section("TABLES", layers),
+            section("BLOCKS", blocks),
+            section("ENTITIES", &format!("0 INSERT; 10 0; 20 0; {insert}")),
+        ]));
+        let hidden: Vec<bool> = found.items.iter().map(|item| item.hidden).collect();
+        (hidden, found.remarks.join("; "))
+    };
+    let layers = "layers that are off or frozen, their curves are hidden";
+    let marked = "2 entities are marked as invisible, they are hidden";
+    for name in ["a", "outer"] {
+        let told = (vec![true; 2], format!("{layers}: frozen"));
+        assert_eq!(hidden_by(&format!("2 {name}; 8 frozen")), told);
+        let (hidden, told) = hidden_by(&format!("2 {name}; 8 plain; 60 1"));
+        assert!(hidden == [true; 2] && told.ends_with(marked), "{told}");
+        let plain = hidden_by(&format!("2 {name}; 8 plain"));
+        assert_eq!(plain, (vec![false; 2], String::new()));
+    }
+    assert_eq!(
+        hidden_by("2 a; 8 off"),
+        (vec![false, true], format!("{layers}: off"))
+    );
+    assert_eq!(hidden_by("2 outer; 8 off"), (vec![false; 2], String::new()));
 }
 
 #[test]
@@ -181,10 +227,6 @@ fn entities_that_make_no_curve_are_skipped_by_name_and_line() {
         (
             "0 CIRCLE; 10 1; 20 2; 40 0",
             "line 6: CIRCLE skipped: radius 0 is not above 0",
-        ),
-        (
-            "0 POINT; 10 1; 20 2; 60 1",
-            "line 6: POINT skipped: the file marks it as invisible",
         ),
         (
             "0 CIRCLE; 10 1; 20 2; 40 1; 210 0; 220 0; 230 0",

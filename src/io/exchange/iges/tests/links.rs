@@ -205,7 +205,7 @@ fn subfigure_is_inserted_with_scale_and_placement() {
         (item.block.as_deref(), item.space),
         (Some("bolt"), Space::Model)
     );
-    assert_eq!(item.group, ["4"]);
+    assert_eq!(item.group[..], ["4"]);
     assert_eq!(point_at(&item.shapes[0], 1.0), DVec3::new(20.0, 42.0, 60.0));
     assert_eq!(point_at(&drawing.items[1].shapes[0], 1.0), DVec3::X);
     assert!(has_remark(

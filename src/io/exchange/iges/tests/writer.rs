@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use std::f64::consts::TAU;
 
 use glam::DVec3;
@@ -31,7 +33,7 @@ fn item(kind: Kind, shapes: Vec<Shape>) -> Item {
     Item {
         kind,
         shapes,
-        group: Vec::new(),
+        group: Arc::default(),
         name: None,
         block: None,
         colour: None,
@@ -112,7 +114,8 @@ fn splines_lines_polylines_and_points_come_back_bit_for_bit() {
             vec!["a".to_owned(), "b, c".to_owned()],
             vec![],
         ][index % 3]
-            .clone();
+            .as_slice()
+            .into();
         item.colour = [
             None,
             Some([255, 0, 0]),

@@ -4,6 +4,8 @@ mod paths;
 mod tree;
 mod writer;
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::{read, write};
@@ -58,7 +60,7 @@ fn item(shapes: Vec<Shape>) -> Item {
     Item {
         kind: Kind::Path,
         shapes,
-        group: Vec::new(),
+        group: Arc::default(),
         name: None,
         block: None,
         colour: None,

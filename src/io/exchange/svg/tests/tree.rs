@@ -367,7 +367,7 @@ fn other_encodings() {
         .flat_map(u16::to_le_bytes)
         .collect();
     for bytes in [text.as_bytes(), &latin, &wide] {
-        assert_eq!(read(bytes).unwrap().items[0].group, ["\u{e4}"]);
+        assert_eq!(read(bytes).unwrap().items[0].group[..], ["\u{e4}"]);
     }
 }
 

@@ -37,11 +37,11 @@ pub(super) fn sample() -> Drawing {
             to: TAU,
         })]),
     ];
-    items[0].group = vec!["A \"<&> 1".to_owned(), "B".to_owned()];
+    items[0].group = ["A \"<&> 1".to_owned(), "B".to_owned()].into();
     items[0].name = Some("curve & 'one'\n".trim().to_owned());
-    items[1].group = vec!["A \"<&> 1".to_owned()];
-    items[3].group = vec!["C".to_owned()];
-    items[4].group = vec!["C".to_owned(), "D".to_owned()];
+    items[1].group = ["A \"<&> 1".to_owned()].into();
+    items[3].group = ["C".to_owned()].into();
+    items[4].group = ["C".to_owned(), "D".to_owned()].into();
     for (it, red) in items.iter_mut().zip(1..) {
         it.colour = Some([red, 0, 255]);
     }

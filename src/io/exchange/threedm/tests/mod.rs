@@ -87,10 +87,10 @@ fn reads_all_versions() {
         let [curve, line, circle, point] = drawing.items.as_slice() else {
             panic!("version {version}: {} items", drawing.items.len());
         };
-        assert_eq!(curve.group, ["Außen", "innen"]);
+        assert_eq!(curve.group[..], ["Außen", "innen"]);
         assert_eq!(curve.name.as_deref(), Some("Kurve"));
         assert_eq!(curve.colour, Some([4, 5, 6]));
-        assert_eq!(line.group, ["Außen"]);
+        assert_eq!(line.group[..], ["Außen"]);
         assert_eq!(line.colour, Some([9, 8, 7]));
         assert_eq!((line.kind, line.name.as_deref()), (Kind::Line, None));
         assert_eq!(circle.kind, Kind::Circle);
@@ -486,7 +486,7 @@ fn places_what_blocks_contain() {
         // By their layer; by their parent.
         assert_eq!(drawing.items[3].colour, Some([1, 2, 3]));
         assert_eq!(drawing.items[4].colour, Some([4, 5, 6]));
-        assert_eq!(drawing.items[3].group, ["Lage"]);
+        assert_eq!(drawing.items[3].group[..], ["Lage"]);
     }
 }
 

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use super::super::{exact, write};
 use super::*;
 use crate::io::exchange::drawing::Unreadable;
@@ -6,7 +8,7 @@ fn item(kind: Kind, shapes: Vec<Shape>) -> Item {
     Item {
         kind,
         shapes,
-        group: vec!["Batten".to_owned()],
+        group: vec!["Batten".to_owned()].into(),
         name: None,
         block: None,
         colour: Some([10, 20, 30]),
@@ -80,7 +82,7 @@ fn gives_back_every_number() {
         vec![spline(3, clamped.clone(), Some(weights))],
     );
     named.name = Some("Straße 😀".to_owned());
-    named.group = ["Außen", "innen", "tief"].map(str::to_owned).to_vec();
+    named.group = ["Außen", "innen", "tief"].map(str::to_owned).into();
     let drawing = Drawing {
         unit: Some(25.4),
         items: vec![
@@ -225,25 +227,28 @@ fn splits_chains_that_do_not_meet() {
 #[test]
 fn puts_curves_without_a_group_on_the_default_layer() {
     let mut curve = item(Kind::Point, vec![Shape::Point(DVec3::ZERO)]);
-    (curve.group, curve.colour) = (Vec::new(), None);
+    (curve.group, curve.colour) = (Arc::default(), None);
     let drawing = Drawing {
         items: vec![curve],
         ..Drawing::default()
     };
     let mut read = read(&write(&drawing, "Profil").unwrap()).unwrap();
-    assert_eq!(read.items.remove(0).group, ["Default"]);
+    assert_eq!(read.items.remove(0).group[..], ["Default"]);
 }
 
 #[test]
 fn writes_names_of_layers_that_rhino_accepts() {
     let mut curve = item(Kind::Point, vec![Shape::Point(DVec3::ZERO)]);
-    curve.group = ["(a)", "", "b\n::c"].map(str::to_owned).to_vec();
+    curve.group = ["(a)", "", "b\n::c"].map(str::to_owned).into();
     let drawing = Drawing {
         unit: Some(1.0),
         items: vec![curve],
         ..Drawing::default()
     };
-    assert_eq!(round_trip(&drawing).items[0].group, ["_(a)", "_", "b::c"]);
+    assert_eq!(
+        round_trip(&drawing).items[0].group[..],
+        ["_(a)", "_", "b::c"]
+    );
 }
 
 #[test]
