@@ -9,7 +9,7 @@ pub(super) const LONGEST: usize = 255;
 pub(in crate::io) const CUT: &str = "names of more than 255 letters are cut";
 
 /// The most groups of a path that are kept.
-const DEEPEST: usize = 64;
+pub(super) const DEEPEST: usize = 64;
 
 /// Letters take up to so many bytes in any coding, with their escapes.
 const LETTER: usize = 16;

@@ -1,6 +1,7 @@
 //! The walk from a file's root shape to its edges.
 
 use std::collections::HashSet;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -14,6 +15,9 @@ use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Shape, Space, Un
 
 /// How deep compounds may nest.
 const NESTING: usize = 64;
+
+/// What the visit of a shape costs, in bytes of parameters.
+const VISIT: u64 = 64;
 
 /// Remarks kept: a damaged file would otherwise give one for each of its edges.
 const REMARKS: usize = 1000;
@@ -122,14 +126,8 @@ impl Reader {
             ));
             return;
         };
-        // Lists are copied at each visit.
-        let bytes = part
-            .children
-            .len()
-            .saturating_mul(size_of::<Reference>())
-            .saturating_add(64);
-        self.spending.work(u64::try_from(bytes).unwrap_or(u64::MAX));
-        let (place, line, children) = (outer.of(own), part.line, part.children.clone());
+        self.spending.work(VISIT);
+        let (place, line, children) = (outer.of(own), part.line, Rc::clone(&part.children));
         let space = if matches!(part.content, Content::Face) {
             Space::Edge
         } else {
@@ -153,7 +151,7 @@ impl Reader {
                 &format!("shapes nest more than {NESTING} deep; skipped"),
             ),
             _ => {
-                for child in children {
+                for &child in children.iter() {
                     if self.spending.is_over() {
                         break;
                     }

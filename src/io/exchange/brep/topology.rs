@@ -1,5 +1,7 @@
 //! Sections `Locations` and `TShapes`.
 
+use std::rc::Rc;
+
 use glam::{DMat3, DVec3};
 
 use super::tokens::Tokens;
@@ -11,7 +13,7 @@ const POWER: i64 = 64;
 /// A shape without its place.
 pub(super) struct Part {
     pub content: Content,
-    pub children: Vec<Reference>,
+    pub children: Rc<[Reference]>,
     /// The line in the file, from 1.
     pub line: u64,
 }
@@ -175,7 +177,7 @@ fn part(from: &mut Tokens, version: u32, index: usize, count: usize) -> Result<P
     }
     Ok(Part {
         content,
-        children,
+        children: children.into(),
         line,
     })
 }

@@ -12,7 +12,7 @@ use super::super::spending::Spending;
 use super::super::splines::{checked, clamped_knots};
 use super::units::UNITS;
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Space, Unreadable};
-use crate::io::exchange::short_names::{short, short_path};
+use crate::io::exchange::short_names::{DEEPEST, short, short_path};
 
 /// Read all curves.
 pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
@@ -84,8 +84,7 @@ impl<'d> File<'d> {
         });
         let result = curve.and_then(|curve| {
             let name = curve.name.as_deref().map(short);
-            let group = curve.group.clone().map(Group::path).unwrap_or_default();
-            let group = short_path(group.iter().map(String::as_str));
+            let group = curve.group.as_ref().map_or(&[][..], |it| &it.0).to_vec();
             let spline = curve.spline().map_err(|reason| (line, reason))?;
             Ok((name, group, spline))
         });
@@ -160,7 +159,7 @@ struct Curve {
     points: Vec<Corner>,
     weights: Option<Vec<f64>>,
     periodic: Option<bool>,
-    group: Option<Group>,
+    group: Option<Path>,
 }
 
 impl Curve {
@@ -182,24 +181,35 @@ impl Curve {
     }
 }
 
-/// The groups of a curve.
-#[derive(Clone, Deserialize)]
-#[serde(untagged)]
-enum Group {
-    Joined(String),
-    List(Vec<String>),
-}
+/// The groups of a curve, without empty names and cut where they nest too deep.
+struct Path(Vec<String>);
 
-impl Group {
-    fn path(self) -> Vec<String> {
-        let names = match self {
-            Self::Joined(text) => text.split('/').map(str::to_owned).collect(),
-            Self::List(names) => names,
-        };
-        names
-            .into_iter()
-            .filter(|it: &String| !it.is_empty())
-            .collect()
+impl<'de> Deserialize<'de> for Path {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Names;
+        impl<'de> Visitor<'de> for Names {
+            type Value = Path;
+
+            fn expecting(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+                formatter.write_str("a text or a list of names")
+            }
+
+            fn visit_str<E>(self, text: &str) -> Result<Path, E> {
+                let names = text.split('/').filter(|name| !name.is_empty());
+                Ok(Path(short_path(names)))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Path, A::Error> {
+                let mut names = Vec::new();
+                while let Some(name) = list.next_element::<String>()? {
+                    if !name.is_empty() && names.len() <= DEEPEST {
+                        names.push(short(&name));
+                    }
+                }
+                Ok(Path(short_path(names.iter().map(String::as_str))))
+            }
+        }
+        deserializer.deserialize_any(Names)
     }
 }
 

@@ -115,7 +115,7 @@ impl<'a, 'n> Placer<'a, 'n> {
 
     fn draw_top(&mut self, entities: &Groups<'a>, layout: Option<Space>) {
         let mut parts = Parts::new(entities, self.sections);
-        while let Some(part) = parts.next(self.notes) {
+        while let Some(mut part) = parts.next(self.notes) {
             let marked = if part.is_paper {
                 Space::Paper
             } else {
@@ -126,25 +126,30 @@ impl<'a, 'n> Placer<'a, 'n> {
                 space: layout.unwrap_or(marked),
                 insert: None,
             };
-            self.draw(&part, &setting);
+            match &mut part.content {
+                Content::Curve(kind, shapes) => {
+                    let (kind, shapes) = (*kind, std::mem::take(shapes));
+                    self.draw_curve(&part, kind, shapes, &setting);
+                }
+                _ => self.draw(&part, &setting),
+            }
         }
     }
 
     fn draw(&mut self, part: &Part, setting: &Setting) {
         match &part.content {
-            Content::Curve(kind, shapes) => self.draw_curve(part, *kind, shapes, setting),
+            Content::Curve(kind, shapes) => {
+                let place = |shape: &Shape| shape.clone().placed(&setting.place);
+                let shapes = shapes.iter().map(place).collect();
+                self.draw_curve(part, *kind, shapes, setting);
+            }
             Content::Insert(insert) => self.draw_insert(part, insert, setting),
             Content::Other(name) => self.count_other(name, part.at),
         }
     }
 
-    fn draw_curve(&mut self, part: &Part, kind: Kind, shapes: &[Shape], setting: &Setting) {
-        self.memory = self.memory.saturating_add(item_size(shapes));
-        let place = |shape: &Shape| shape.clone().placed(&setting.place);
-        let shapes: Vec<Shape> = match setting.insert {
-            Some(_) => shapes.iter().map(place).collect(),
-            None => shapes.to_vec(),
-        };
+    fn draw_curve(&mut self, part: &Part, kind: Kind, shapes: Vec<Shape>, setting: &Setting) {
+        self.memory = self.memory.saturating_add(item_size(&shapes));
         if !shapes.iter().all(is_finite) {
             let name = kind.name();
             self.notes.add_once(

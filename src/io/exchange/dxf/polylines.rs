@@ -126,10 +126,10 @@ fn polyline(record: &Record<'_>, points: Vec<DVec3>, closed: bool) -> Result<Sha
 
 fn chain(record: &Record<'_>, corners: &[Corner], closed: bool) -> Result<Vec<Shape>, Trouble> {
     let place = axes(record)?;
-    let points: Vec<_> = corners.iter().map(|corner| corner.point).collect();
-    let whole = polyline(record, points, closed)?;
-    if corners.iter().all(|corner| corner.bulge.abs() < FLAT) {
-        return Ok(vec![whole.placed(&place)]);
+    let is_flat = |corner: &Corner| corner.bulge.abs() < FLAT;
+    if corners.len() < 2 || corners.iter().all(is_flat) {
+        let points: Vec<_> = corners.iter().map(|corner| corner.point).collect();
+        return Ok(vec![polyline(record, points, closed)?.placed(&place)]);
     }
     let shapes = pieces(corners, closed, &place);
     if shapes.is_empty() {
@@ -140,7 +140,7 @@ fn chain(record: &Record<'_>, corners: &[Corner], closed: bool) -> Result<Vec<Sh
 
 /// Cut a chain where segments and arcs meet.
 fn pieces(corners: &[Corner], closed: bool, place: &Affine) -> Vec<Shape> {
-    let mut shapes = Vec::new();
+    let mut shapes = Vec::with_capacity(count(corners));
     let mut run: Vec<DVec3> = Vec::new();
     let ends = corners
         .iter()
@@ -165,6 +165,16 @@ fn pieces(corners: &[Corner], closed: bool, place: &Affine) -> Vec<Shape> {
         .into_iter()
         .map(|shape| shape.placed(place))
         .collect()
+}
+
+/// About how many runs of segments and arcs there are: a chain may have a million.
+fn count(corners: &[Corner]) -> usize {
+    let are_arcs = corners.iter().map(|corner| corner.bulge.abs() >= FLAT);
+    let before = std::iter::once(true).chain(are_arcs.clone());
+    let begins = are_arcs
+        .zip(before)
+        .filter(|(is_arc, before)| *is_arc || *before);
+    begins.count()
 }
 
 fn end_run(run: &mut Vec<DVec3>, shapes: &mut Vec<Shape>) {

@@ -10,11 +10,17 @@ use super::words::{DEFAULT_GROUP, UNIT};
 use crate::io::exchange::drawing::{Drawing, Item, Kind, Shape, Space, Unreadable};
 use crate::io::exchange::short_names::{short, short_path};
 
-/// The most items. Points take two bytes of the file each, but a hundred times as much memory.
-const ITEM_LIMIT: usize = 500_000;
+/// The bytes of a file that an item takes: points take two, but a hundred times as much memory.
+const ITEM_BYTES: usize = 20;
+
+/// So many items any file may have.
+const ITEMS: usize = 500_000;
 
 /// So many bytes of names count as an item: a file gives a name once to all that follows.
 const NAME_BYTES: usize = 64;
+
+/// So many points of a curve count as an item: it names each vertex by two bytes or more.
+const POINTS: usize = 4;
 
 /// Read a file.
 pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
@@ -25,7 +31,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         });
     }
     let text = String::from_utf8_lossy(bytes);
-    let mut reader = Reader::default();
+    let mut reader = Reader {
+        left: ITEMS.max(bytes.len() / ITEM_BYTES),
+        ..Reader::default()
+    };
     let mut lines = text.lines().zip(1..);
     while let Some((line, number)) = lines.next() {
         let joined = line.ends_with('\\').then(|| continued(line, &mut lines));
@@ -71,9 +80,9 @@ struct Reader {
     basis: Option<(String, bool)>,
     degree: Option<usize>,
     open: Option<Open>,
-    /// The items so far, with their names.
-    spent: usize,
-    /// Whether the items are too many.
+    /// How many items there may still be, those for long names and many points counted.
+    left: usize,
+    /// Whether there is no room for more.
     full: bool,
 }
 
@@ -188,6 +197,9 @@ impl Reader {
         let degree = self.degree.ok_or("there is no deg before it")?;
         let mut words = rest.split_whitespace();
         let range = (number(words.next())?, number(words.next())?);
+        if !self.spend(words.clone().count() / POINTS) {
+            return Ok(());
+        }
         let weights = is_rational
             .then(|| self.vertices(words.clone(), |it| it.1))
             .transpose()?;
@@ -249,6 +261,9 @@ impl Reader {
 
     fn polyline(&mut self, rest: &str) -> Result<(), String> {
         let words = rest.split_whitespace();
+        if !self.spend(words.clone().count() / POINTS) {
+            return Ok(());
+        }
         let mut points = self.vertices(words.clone(), |it| it.0)?;
         if points.len() < 2 {
             return Err("it has fewer than two points".to_owned());
@@ -289,18 +304,25 @@ impl Reader {
             at,
         };
         let texts = item.texts_size(self.drawing.items.last());
-        self.spent += 1 + texts / NAME_BYTES;
-        if self.spent > ITEM_LIMIT {
-            if !self.full {
+        if self.spend(1 + texts / NAME_BYTES) {
+            self.drawing.items.push(item);
+        }
+    }
+
+    /// Make room; `false` where there is none.
+    fn spend(&mut self, items: usize) -> bool {
+        match self.left.checked_sub(items) {
+            Some(left) if !self.full => self.left = left,
+            _ if self.full => {}
+            _ => {
                 let count = self.drawing.items.len();
                 self.remark(&format!(
-                    "the rest of the file is skipped: it has more than {count} curves and points"
+                    "the rest of the file is skipped: its {count} curves and points take too much memory"
                 ));
+                self.full = true;
             }
-            self.full = true;
-            return;
         }
-        self.drawing.items.push(item);
+        !self.full
     }
 }
 

@@ -355,7 +355,8 @@ pub fn memory(shape: &Shape) -> usize {
         Shape::Polyline { points, .. } => points.len(),
         _ => 0,
     };
-    size_of::<Shape>() + points * size_of::<DVec3>()
+    // A list that grows holds its shapes twice; each allocation has an overhead.
+    2 * size_of::<Shape>() + points * size_of::<DVec3>() + 32
 }
 
 /// Name the trimmed curve after its basis: an arc where a circle or ellipse does not close.

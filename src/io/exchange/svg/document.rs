@@ -10,7 +10,7 @@ use super::lengths::{Along, Viewport, aspect_ratio, length, page, view_box};
 use super::maker::{Maker, Room};
 use super::names::{group_name, name};
 use super::namespaces::{SVG, XLINK};
-use super::style::{Sheet, Style};
+use super::style::{MOST_SELECTORS, Sheet, Style};
 use super::transforms::{fit, matrix, transform};
 use super::{paths, shapes};
 use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Space, Unreadable};
@@ -38,7 +38,7 @@ const OF_SMALL: usize = 64 << 20;
 const OF_BYTE: usize = 20;
 
 /// The memory for a point of a path, with what it takes while a long path is read.
-const OF_POINT: usize = 42;
+const OF_POINT: usize = 48;
 
 /// Where an item of a drawing comes from.
 #[derive(Clone)]
@@ -207,6 +207,11 @@ impl<'d> Walk<'d> {
         if count > 0 {
             let skipped = skipped(count, "hidden element", "hidden elements");
             self.remarks.add(format!("line {line}: {skipped}"));
+        }
+        if self.sheet.is_full {
+            self.remarks.add(format!(
+                "style sheets with more than {MOST_SELECTORS} selectors: the others have no effect"
+            ));
         }
         let (count, line) = self.empty;
         if count > 0 {

@@ -15,6 +15,9 @@ const LONGEST_VALUE: usize = 128;
 /// The bytes of the longest selector that is looked at.
 const LONGEST_SELECTOR: usize = 1000;
 
+/// The most selectors of a file that have an effect.
+pub(super) const MOST_SELECTORS: usize = 100_000;
+
 /// What an element inherits.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Style {
@@ -41,6 +44,8 @@ enum Paint {
 #[derive(Default)]
 pub(super) struct Sheet {
     rules: HashMap<String, Vec<(String, String)>>,
+    /// Whether there are too many selectors.
+    pub(super) is_full: bool,
 }
 
 impl Style {
@@ -121,6 +126,10 @@ impl Sheet {
                 let is_combined =
                     selector.contains(|it: char| it.is_whitespace() || "@:[>+~*".contains(it));
                 if is_combined || selector.len() > LONGEST_SELECTOR {
+                    continue;
+                }
+                if self.rules.len() >= MOST_SELECTORS && !self.rules.contains_key(selector) {
+                    self.is_full = true;
                     continue;
                 }
                 let rules = self.rules.entry(selector.to_owned()).or_default();
