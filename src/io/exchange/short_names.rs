@@ -11,6 +11,9 @@ pub(in crate::io) const CUT: &str = "names of more than 255 letters are cut";
 /// The most groups of a path that are kept.
 pub(super) const DEEPEST: usize = 64;
 
+/// The letters of the longest path that is kept: a project holds it for each of its curves.
+const LONGEST_PATH: usize = 1000;
+
 /// Letters take up to so many bytes in any coding, with their escapes.
 const LETTER: usize = 16;
 
@@ -27,9 +30,15 @@ pub(in crate::io) fn short(name: &str) -> String {
 
 /// Cut the names of the path of a group, and the path itself.
 pub(super) fn short_path<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
-    let mut names = names.into_iter();
-    let mut path: Vec<String> = names.by_ref().take(DEEPEST).map(short).collect();
-    path.extend(names.next().map(|_| REST.to_string()));
+    let (mut path, mut letters) = (Vec::new(), 0);
+    for name in names.into_iter().map(short) {
+        letters += name.chars().count();
+        if path.len() == DEEPEST || letters > LONGEST_PATH {
+            path.push(REST.to_string());
+            break;
+        }
+        path.push(name);
+    }
     path
 }
 
@@ -54,7 +63,12 @@ pub(in crate::io) fn is_cut(name: &str) -> bool {
 }
 
 fn is_cut_path(path: &[String]) -> bool {
-    path.len() > DEEPEST && path.last().is_some_and(|it| it.chars().eq([REST]))
+    let [names @ .., last] = path else {
+        return false;
+    };
+    let letters: usize = names.iter().map(|name| name.chars().count()).sum();
+    let is_full = names.len() == DEEPEST || letters + LONGEST + 1 > LONGEST_PATH;
+    is_full && last.chars().eq([REST])
 }
 
 impl Drawing {
@@ -68,7 +82,8 @@ impl Drawing {
             self.remarks.push(CUT.to_owned());
         }
         if self.items.iter().any(|item| is_cut_path(&item.group)) {
-            let told = format!("paths of more than {DEEPEST} groups are cut");
+            let told =
+                format!("paths of more than {DEEPEST} groups or {LONGEST_PATH} letters are cut");
             self.remarks.push(told);
         }
     }
@@ -97,5 +112,9 @@ mod tests {
         let path = short_path(deep);
         assert_eq!((path.len(), path[64].as_str()), (65, "…"));
         assert!(is_cut_path(&path) && !is_cut_path(&short_path(["a"; 64])));
+        let long = "n".repeat(200);
+        let path = short_path([long.as_str(); 9]);
+        assert_eq!((path.len(), path[5].as_str()), (6, "…"));
+        assert!(is_cut_path(&path) && !is_cut_path(&path[..5]));
     }
 }

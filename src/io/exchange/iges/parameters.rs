@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::records::whole;
+use crate::io::exchange::short_names::{beginning, short};
 
 /// The two delimiters of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -180,13 +181,13 @@ impl Parameters {
     pub fn text(&self, index: usize) -> Option<String> {
         let field = self.field(index)?;
         let (start, end) = hollerith(field)?;
-        let bytes = field.get(start..end.min(field.len()))?.trim_ascii();
+        let bytes = beginning(field.get(start..end.min(field.len()))?.trim_ascii());
         // Older programs write Latin-1.
         let text = std::str::from_utf8(bytes).map_or_else(
             |_| bytes.iter().map(|byte| char::from(*byte)).collect(),
             str::to_owned,
         );
-        (!text.is_empty()).then_some(text)
+        (!text.is_empty()).then(|| short(&text))
     }
 
     /// Give a field without the blanks around it.

@@ -269,6 +269,9 @@ impl<'a> Curves<'a, '_> {
         for id in segments.list().unwrap_or_default().refs() {
             match self.segment(curve, id, depth) {
                 Ok(pieces) => shapes.extend(pieces),
+                Err(Flaw::TooLarge { .. }) => return Err(Flaw::too_large(curve)),
+                // The limit is the cause, and told.
+                Err(_) if self.file.is_exhausted() => break,
                 Err(Flaw::Damaged {
                     line,
                     entity,
@@ -284,9 +287,6 @@ impl<'a> Curves<'a, '_> {
                     let reason = "this kind of curve is not read; the piece is left out";
                     self.remarks.borrow_mut().add_at(line, &entity, reason);
                 }
-            }
-            if self.file.is_exhausted() {
-                break;
             }
         }
         if shapes.is_empty() {
@@ -343,8 +343,7 @@ impl<'a> Curves<'a, '_> {
 
     fn pay(&self, curve: &Instance, shapes: &[Shape]) -> Result<(), Flaw> {
         let paid = shapes.iter().all(|shape| self.file.spend(memory(shape)));
-        paid.then_some(())
-            .ok_or_else(|| Flaw::damaged(curve, "the file needs too much memory"))
+        paid.then_some(()).ok_or_else(|| Flaw::too_large(curve))
     }
 }
 

@@ -14,6 +14,13 @@ pub enum Flaw {
         /// What is wrong with it.
         reason: String,
     },
+    /// There is no room for it.
+    TooLarge {
+        /// Its line.
+        line: u64,
+        /// Its name.
+        entity: String,
+    },
     /// It is a kind that this reader does not know.
     Unknown {
         /// Its line.
@@ -28,8 +35,16 @@ impl Flaw {
     pub fn damaged(instance: &Instance, reason: &str) -> Self {
         Self::Damaged {
             line: instance.line,
-            entity: format!("#{} {}", instance.id, instance.name()),
+            entity: numbered(instance),
             reason: reason.to_owned(),
+        }
+    }
+
+    /// Say that there is no room for an instance.
+    pub fn too_large(instance: &Instance) -> Self {
+        Self::TooLarge {
+            line: instance.line,
+            entity: numbered(instance),
         }
     }
 
@@ -40,4 +55,8 @@ impl Flaw {
             entity: instance.name().to_owned(),
         }
     }
+}
+
+fn numbered(instance: &Instance) -> String {
+    format!("#{} {}", instance.id, instance.name())
 }

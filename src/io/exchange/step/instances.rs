@@ -121,16 +121,24 @@ impl<'a> Instances<'a> {
         left > 0
     }
 
-    /// Pay for memory; false when the file has used up what its length allows.
+    /// Pay for memory, if there is as much.
     pub fn spend(&self, bytes: usize) -> bool {
-        let left = self.memory.get().saturating_sub(bytes as u64);
-        self.memory.set(left);
-        left > 0
+        let left = self.memory.get().checked_sub(bytes as u64);
+        self.memory.set(left.unwrap_or(self.memory.get()));
+        left.is_some()
     }
 
-    /// Whether the file has used up what its length allows.
+    /// Do something, and give back the memory that it has paid for.
+    pub fn lending<T>(&self, read: impl FnOnce() -> T) -> T {
+        let before = self.memory.get();
+        let result = read();
+        self.memory.set(before);
+        result
+    }
+
+    /// Whether the file has used up the work that its length allows.
     pub fn is_exhausted(&self) -> bool {
-        self.work.get() == 0 || self.memory.get() == 0
+        self.work.get() == 0
     }
 
     fn find(&self, id: u64) -> Option<Instance<'a>> {

@@ -104,7 +104,7 @@ impl<'a> Walk<'a, '_> {
     }
 
     fn curve(&mut self, curve: &Instance<'a>, style: Style<'a>) {
-        match self.curves.bounded(curve) {
+        match self.file.lending(|| self.curves.bounded(curve)) {
             Ok(found) => self.emit(curve, style, Space::Model, found),
             Err(flaw) => self.skip(flaw),
         }
@@ -135,7 +135,7 @@ impl<'a> Walk<'a, '_> {
         }
         let style = self.styles.of(part.id, outer);
         if part.is("EDGE_CURVE") {
-            match self.curves.edge(part) {
+            match self.file.lending(|| self.curves.edge(part)) {
                 Ok(found) => self.emit(part, style, space, found),
                 Err(flaw) => self.skip(flaw),
             }
@@ -187,17 +187,26 @@ impl<'a> Walk<'a, '_> {
             .name
             .map(decode)
             .filter(|name| !name.trim().is_empty());
-        for placement in self.placements {
-            let size: usize = found.shapes.iter().map(memory).sum();
-            if self.is_full() || !self.file.spend(size_of::<Item>() + size) {
+        let size: usize = found.shapes.iter().map(memory).sum();
+        let mut own = Some(found.shapes);
+        for (left, placement) in (0..self.placements.len()).rev().zip(self.placements) {
+            if self.is_full() {
                 return;
             }
-            let place = placement.place.as_ref();
-            let shapes = found.shapes.iter().cloned().map(|shape| match place {
+            if !self.file.spend(size_of::<Item>() + size) {
+                self.skip(Flaw::too_large(instance));
+                return;
+            }
+            // The last placement takes the shapes themselves: there may be millions.
+            let shapes = match left {
+                0 => own.take(),
+                _ => own.clone(),
+            };
+            let place = |shape: Shape| match &placement.place {
                 Some(place) => shape.placed(place),
                 None => shape,
-            });
-            let shapes: Vec<Shape> = shapes.collect();
+            };
+            let shapes: Vec<Shape> = shapes.into_iter().flatten().map(place).collect();
             if !shapes.iter().all(is_finite) {
                 self.skip(Flaw::damaged(
                     instance,
@@ -220,8 +229,15 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
+    /// Tell that something is skipped. What is missing at the limit of work has no other cause, and that is told.
     fn skip(&mut self, flaw: Flaw) {
         match flaw {
+            _ if self.file.is_exhausted() => {}
+            Flaw::TooLarge { line, entity } => self.remarks.borrow_mut().add_at(
+                line,
+                &entity,
+                "the file needs too much memory, skipped",
+            ),
             Flaw::Damaged {
                 line,
                 entity,

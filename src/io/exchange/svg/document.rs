@@ -14,7 +14,7 @@ use super::style::{MOST_SELECTORS, Sheet, Style};
 use super::transforms::{fit, matrix, transform};
 use super::{paths, shapes};
 use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Space, Unreadable};
-use crate::io::exchange::short_names::short;
+use crate::io::exchange::short_names::{short, short_path};
 use crate::io::exchange::spending::most_items;
 use crate::io::xml::Source;
 
@@ -311,7 +311,10 @@ impl<'d> Walk<'d> {
         }
         let own = (node.tag_name().name() == "g").then(|| group_name(node));
         let group = match own.flatten() {
-            Some(name) => outer.group.iter().cloned().chain([name]).collect(),
+            Some(name) => {
+                let names = outer.group.iter().chain([&name]);
+                short_path(names.map(String::as_str)).into()
+            }
             None => Arc::clone(&outer.group),
         };
         Some(Frame {
