@@ -147,7 +147,7 @@ impl Selection {
     }
 
     /// Deselect what the document no longer has, and vertices that it does not show. Where the active item is gone
-    /// another selected one becomes active, or else the first of the document.
+    /// another selected one becomes active, or else the first visible one of the document, or the first.
     pub fn retain_valid(&mut self, document: &Document) {
         let valid = |(curve, index): &VertexId| {
             let curve = document.curve(*curve);
@@ -161,7 +161,8 @@ impl Selection {
             .active
             .is_none_or(|active| document.name(active).is_none())
         {
-            self.active = document.all_ids().next();
+            let seen = document.all_ids().find(|id| document.is_visible(*id));
+            self.active = seen.or_else(|| document.all_ids().next());
             if self.items.is_empty() {
                 self.items.extend(self.active);
             }
@@ -197,6 +198,20 @@ mod tests {
         let document = Document::from_curves(vec![curve; count]);
         let ids = document.ids().collect();
         (document, ids)
+    }
+
+    #[test]
+    fn a_visible_curve_is_active_before_a_hidden_one() {
+        let polygon = FloatPolygon::planar(2, &[(0.0, 0.0), (1.0, 2.0), (3.0, 0.0)]);
+        let curve = Curve::new("arc", polygon.expect("a polygon"));
+        let mut hidden = curve.clone();
+        hidden.visible = false;
+        for (curves, active) in [(vec![hidden.clone(), curve], 1), (vec![hidden; 2], 0)] {
+            let document = Document::from_curves(curves);
+            let mut selection = Selection::default();
+            selection.retain_valid(&document);
+            assert_eq!(selection.active(), document.ids().nth(active));
+        }
     }
 
     #[test]
