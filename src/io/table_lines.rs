@@ -2,8 +2,6 @@
 
 use std::borrow::Cow;
 
-use csv::{ReaderBuilder, StringRecord};
-
 use super::decimals::{is_number, measured};
 use super::table_column::MOST_COLUMNS;
 use super::table_header::begins_table;
@@ -85,7 +83,7 @@ impl<'a> Fields<'a> {
         let mut values: Vec<Cow<str>> = match separator {
             // In lists such as X=1.5 Y=2.5 a name may touch its number.
             ' ' => words(line).map(Cow::Borrowed).take(MOST).collect(),
-            _ if line.contains('"') => unquoted(line, separator),
+            _ if line.contains('"') => unquoted(line, separator).take(MOST).collect(),
             _ => line.split(separator).map(trimmed).take(MOST).collect(),
         };
         let width = values.len();
@@ -137,20 +135,45 @@ fn trimmed(field: &str) -> Cow<'_, str> {
 }
 
 /// Split a line that has quotation marks. Each line is read on its own: a mark in a title closes with it.
-fn unquoted<'a>(line: &'a str, separator: char) -> Vec<Cow<'a, str>> {
-    let mut reader = ReaderBuilder::new()
-        .delimiter(u8::try_from(separator).unwrap_or(b','))
-        .has_headers(false)
-        .flexible(true)
-        .buffer_capacity(line.len().max(1))
-        .from_reader(line.as_bytes());
-    let mut record = StringRecord::new();
-    match reader.read_record(&mut record) {
-        Ok(true) => {
-            let fields = record.iter().map(|field| field.trim().to_owned());
-            fields.map(Cow::Owned).collect()
-        }
-        _ => vec![trimmed(line)],
+fn unquoted(line: &str, separator: char) -> impl Iterator<Item = Cow<'_, str>> {
+    let mut rest = Some(line);
+    std::iter::from_fn(move || {
+        let (field, behind) = first_field(rest?, separator);
+        rest = behind;
+        Some(field)
+    })
+}
+
+/// The first field of a line, without its quotation marks, and what stands behind its separator. Within marks a
+/// doubled one stands for itself.
+fn first_field(line: &str, separator: char) -> (Cow<'_, str>, Option<&str>) {
+    let divided = |text| match str::split_once(text, separator) {
+        Some((field, behind)) => (field, Some(behind)),
+        None => (text, None),
+    };
+    let Some(mut inside) = line.trim_start_matches(' ').strip_prefix('"') else {
+        let (field, behind) = divided(line);
+        return (trimmed(field), behind);
+    };
+    let mut field = Cow::Borrowed("");
+    while let Some((text, behind)) = inside.split_once('"') {
+        field += text;
+        let Some(rest) = behind.strip_prefix('"') else {
+            let (tail, behind) = divided(behind);
+            field += tail.trim_end();
+            return (own_trimmed(field), behind);
+        };
+        field += "\"";
+        inside = rest;
+    }
+    field += inside;
+    (own_trimmed(field), None)
+}
+
+fn own_trimmed(field: Cow<'_, str>) -> Cow<'_, str> {
+    match field {
+        Cow::Borrowed(text) => trimmed(text),
+        Cow::Owned(text) => Cow::Owned(text.trim().to_owned()),
     }
 }
 
@@ -323,7 +346,7 @@ fn header(line: &str, separator: char) -> Cow<'_, str> {
     match line.starts_with('"') {
         false => Cow::Borrowed(line),
         true => {
-            let fields = unquoted(line, separator);
+            let fields: Vec<Cow<str>> = unquoted(line, separator).collect();
             let joined = fields.join(separator.encode_utf8(&mut [0; 4]));
             Cow::Owned(joined.trim().to_owned())
         }
@@ -375,6 +398,12 @@ mod tests {
         assert_eq!(fields("say \"so, 1\n"), ["say \"so", "1"]);
         assert_eq!(fields("\"1,5\", 2,,"), ["1,5", "2"]);
         assert_eq!(fields("\"open, 1"), ["open, 1"]);
+        assert_eq!(fields("1, \"2\" ,\"3\"\r"), ["1", "2", "3"]);
+        assert_eq!(
+            fields("\"a \"\"b\"\", c\", \" 2 \"m"),
+            ["a \"b\", c", "2 m"]
+        );
+        assert_eq!(fields("\"\",\"1\""), ["", "1"]);
         assert_eq!(fields(" ,,"), [] as [&str; 0]);
     }
 }

@@ -110,7 +110,9 @@ impl Report {
         let left = objects.saturating_sub(self.drawn.len());
         let remarks = &mut self.drawing.remarks;
         if self.full {
-            remarks.push("Its curves are too many, or take too much memory; the rest is left out".to_owned());
+            remarks.push(
+                "Its curves are too many, or take too much memory; the rest is left out".to_owned(),
+            );
         } else if left > 0 {
             remarks.push(format!(
                 "{left} objects are left out: they are in blocks that nothing refers to"
