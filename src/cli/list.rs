@@ -37,10 +37,10 @@ pub(super) struct Listed {
 /// The printed list.
 #[derive(Serialize)]
 #[serde(bound = "")]
-struct List<'d, I: Iterator<Item = ListedItem>> {
+struct List<'d, R: Iterator<Item = ListedRow>, I: Iterator<Item = ListedItem>> {
     format: &'static str,
     unit: Option<String>,
-    rows: Vec<ListedRow>,
+    rows: OneByOne<R>,
     items: OneByOne<I>,
     other: Vec<ListedOther>,
     remarks: &'d [String],
@@ -110,7 +110,7 @@ pub(super) fn run(
     output::print_json(&List {
         format: format.name,
         unit: drawing.unit.map(unit_name),
-        rows: rows.map(ListedRow::of).collect(),
+        rows: OneByOne::new(rows.map(ListedRow::of)),
         items: OneByOne::new(items.map(ListedItem::of)),
         other: others.collect(),
         remarks: &drawing.remarks,

@@ -35,7 +35,7 @@ impl Spending {
             items: 0,
             most_items: most_items(length),
             memory: 0,
-            memory_limit: length.saturating_mul(10).max(96 << 20),
+            memory_limit: length.saturating_mul(8).max(96 << 20),
             work: 0,
             work_limit: u64::try_from(length)
                 .unwrap_or(u64::MAX)

@@ -350,7 +350,7 @@ impl<'a> Curves<'a, '_> {
 /// Estimate what a shape takes up.
 pub fn memory(shape: &Shape) -> usize {
     let points = match shape {
-        Shape::Nurbs(nurbs) => 2 * nurbs.points.len(),
+        Shape::Nurbs(nurbs) => 3 * nurbs.points.len(),
         Shape::Polyline { points, .. } => points.len(),
         _ => 0,
     };
