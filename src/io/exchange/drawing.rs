@@ -9,7 +9,6 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::remarks::shortened;
-use super::short_names::short_path;
 use crate::io::error::{Place, Problem, ReadError};
 
 /// An arc that misses so small an angle of a turn is a whole one.
@@ -402,20 +401,6 @@ impl Drawing {
             }
         }
         drawing
-    }
-
-    /// Make the path of the next item, cut where it is too long: that of the last one where it is the same.
-    pub(super) fn path(&self, names: &[impl AsRef<str>]) -> Arc<[String]> {
-        let names = names.iter().map(AsRef::as_ref);
-        let last = self.items.last().map(|item| &item.group);
-        if let Some(last) = last.filter(|last| names.clone().eq(last.iter())) {
-            return Arc::clone(last);
-        }
-        let path = short_path(names);
-        match last.filter(|last| ***last == path) {
-            Some(last) => Arc::clone(last),
-            None => path.into(),
-        }
     }
 
     /// Whether nothing was found.

@@ -1,5 +1,7 @@
 //! Names of a usual length: a file may repeat a name of megabytes for each of its curves.
 
+use std::sync::Arc;
+
 use super::drawing::Drawing;
 
 /// The letters of the longest name that is kept: AutoCAD allows as many.
@@ -72,6 +74,20 @@ fn is_cut_path(path: &[String]) -> bool {
 }
 
 impl Drawing {
+    /// Make the path of the next item, cut where it is too long: that of the last one where it is the same.
+    pub(super) fn path(&self, names: &[impl AsRef<str>]) -> Arc<[String]> {
+        let names = names.iter().map(AsRef::as_ref);
+        let last = self.items.last().map(|item| &item.group);
+        if let Some(last) = last.filter(|last| names.clone().eq(last.iter())) {
+            return Arc::clone(last);
+        }
+        let path = short_path(names);
+        match last.filter(|last| ***last == path) {
+            Some(last) => Arc::clone(last),
+            None => path.into(),
+        }
+    }
+
     /// Tell whether names were cut.
     pub(in crate::io) fn tell_cut_names(&mut self) {
         let mut names = self.items.iter().flat_map(|item| {
