@@ -213,29 +213,6 @@ impl Unreadable {
     }
 }
 
-impl Item {
-    /// The bytes of its names, without the path and the block that it shares with the item before it.
-    pub(super) fn texts_size(&self, before: Option<&Self>) -> usize {
-        /// What an allocation costs beside its contents.
-        const ALLOCATION: usize = 16;
-        let path = self
-            .group
-            .iter()
-            .map(|name| name.capacity() + size_of::<String>() + ALLOCATION);
-        let is_own = before.is_none_or(|it| !Arc::ptr_eq(&it.group, &self.group));
-        let path = if is_own { path.sum() } else { 0 };
-        let block = self.block.as_ref().filter(|block| {
-            let before = before.and_then(|it| it.block.as_ref());
-            before.is_none_or(|it| !Arc::ptr_eq(it, block))
-        });
-        let name = self
-            .name
-            .as_ref()
-            .map_or(0, |name| name.capacity() + ALLOCATION);
-        path + name + block.map_or(0, |block| block.len() + 2 * ALLOCATION)
-    }
-}
-
 impl Other {
     /// Name it with its count and the place of the first one.
     pub(super) fn told(&self, is_binary: bool) -> String {

@@ -13,6 +13,7 @@ pub(super) mod formats;
 mod glif;
 mod iges;
 pub mod import;
+mod memory;
 #[cfg(test)]
 mod mutate;
 mod obj;

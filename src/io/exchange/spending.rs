@@ -72,34 +72,16 @@ impl Spending {
 
     /// Count a shape of an item to come.
     pub fn keep_shape(&mut self, shape: &Shape) {
-        self.memory = self.memory.saturating_add(shape_size(shape));
+        self.memory = self.memory.saturating_add(shape.memory());
     }
 
     /// Count an item behind another, without its shapes; `false` if it is beyond the limits.
     pub fn keep(&mut self, item: &Item, before: Option<&Item>) -> bool {
-        let size = size_of::<Item>().saturating_add(item.texts_size(before));
         if self.is_over() {
             return false;
         }
-        self.memory = self.memory.saturating_add(size);
+        self.memory = self.memory.saturating_add(item.own_memory(before));
         self.items = self.items.saturating_add(1);
         true
     }
-}
-
-fn shape_size(shape: &Shape) -> usize {
-    let numbers = match shape {
-        Shape::Nurbs(nurbs) => {
-            let weights = nurbs.weights.as_ref().map_or(0, Vec::len);
-            let points = nurbs.points.len().saturating_mul(3);
-            points
-                .saturating_add(nurbs.knots.len())
-                .saturating_add(weights)
-        }
-        Shape::Polyline { points, .. } => points.len().saturating_mul(3),
-        Shape::Conic(_) | Shape::Point(_) => 0,
-    };
-    numbers
-        .saturating_mul(size_of::<f64>())
-        .saturating_add(size_of::<Shape>())
 }

@@ -4,8 +4,6 @@ use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use glam::DVec3;
-
 use super::colours::Paint;
 use super::groups::Groups;
 use super::layers::Layer;
@@ -149,7 +147,6 @@ impl<'a, 'n> Placer<'a, 'n> {
     }
 
     fn draw_curve(&mut self, part: &Part, kind: Kind, shapes: Vec<Shape>, setting: &Setting) {
-        self.memory = self.memory.saturating_add(item_size(&shapes));
         if !shapes.iter().all(is_finite) {
             let name = kind.name();
             self.notes.add_once(
@@ -175,6 +172,8 @@ impl<'a, 'n> Placer<'a, 'n> {
                 .drawing
                 .path(&[layer.map_or(name, |layer| &layer.name)]),
         };
+        let memory = item.memory(self.drawing.items.last());
+        self.memory = self.memory.saturating_add(memory);
         self.drawing.items.push(item);
     }
 
@@ -382,25 +381,12 @@ fn is_finite(shape: &Shape) -> bool {
     }
 }
 
-/// The bytes of an item. The list of items has room for more of them; each string and list has an overhead.
-fn item_size(shapes: &[Shape]) -> usize {
-    size_of::<Item>() * 3 / 2 + 96 + shapes_size(shapes)
-}
-
+/// About how many bytes an entity of a block takes.
 fn part_size(part: &Part) -> usize {
     let content = match &part.content {
-        Content::Curve(_, shapes) => shapes_size(shapes),
+        Content::Curve(_, shapes) => shapes.iter().map(Shape::memory).sum(),
         Content::Insert(_) => 0,
         Content::Other(name) => name.len(),
     };
     size_of::<Part>() + 64 + part.layer.len() + content
-}
-
-fn shapes_size(shapes: &[Shape]) -> usize {
-    let inner = |shape: &Shape| match shape {
-        Shape::Nurbs(nurbs) => size_of_val(&*nurbs.points) + 2 * size_of_val(&*nurbs.knots),
-        Shape::Polyline { points, .. } => size_of::<DVec3>() * points.len(),
-        Shape::Conic(_) | Shape::Point(_) => 0,
-    };
-    size_of_val(shapes) + shapes.iter().map(inner).sum::<usize>() + 16 * shapes.len()
 }

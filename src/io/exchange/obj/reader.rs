@@ -303,7 +303,7 @@ impl Reader {
             space: Space::Model,
             at,
         };
-        let texts = item.texts_size(self.drawing.items.last());
+        let texts = item.names_memory(self.drawing.items.last());
         if self.spend(1 + texts / NAME_BYTES) {
             self.drawing.items.push(item);
         }

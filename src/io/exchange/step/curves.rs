@@ -342,20 +342,9 @@ impl<'a> Curves<'a, '_> {
     }
 
     fn pay(&self, curve: &Instance, shapes: &[Shape]) -> Result<(), Flaw> {
-        let paid = shapes.iter().all(|shape| self.file.spend(memory(shape)));
+        let paid = shapes.iter().all(|shape| self.file.spend(shape.memory()));
         paid.then_some(()).ok_or_else(|| Flaw::too_large(curve))
     }
-}
-
-/// Estimate what a shape takes up.
-pub fn memory(shape: &Shape) -> usize {
-    let points = match shape {
-        Shape::Nurbs(nurbs) => 3 * nurbs.points.len(),
-        Shape::Polyline { points, .. } => points.len(),
-        _ => 0,
-    };
-    // A list that grows holds its shapes twice; each allocation has an overhead.
-    2 * size_of::<Shape>() + points * size_of::<DVec3>() + 32
 }
 
 /// Name the trimmed curve after its basis: an arc where a circle or ellipse does not close.

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::collections::HashSet;
 
-use super::curves::{Bounded, Curves, memory};
+use super::curves::{Bounded, Curves};
 use super::expansion::Placement;
 use super::flaw::Flaw;
 use super::instances::{Instance, Instances};
@@ -187,15 +187,14 @@ impl<'a> Walk<'a, '_> {
             .name
             .map(decode)
             .filter(|name| !name.trim().is_empty());
-        let size: usize = found.shapes.iter().map(memory).sum();
+        let size: usize = found.shapes.iter().map(Shape::memory).sum();
         let mut own = Some(found.shapes);
         for (left, placement) in (0..self.placements.len()).rev().zip(self.placements) {
             if self.is_full() {
                 return;
             }
-            if !self.file.spend(size_of::<Item>() + size) {
-                self.skip(Flaw::too_large(instance));
-                return;
+            if !self.file.spend(size) {
+                return self.skip(Flaw::too_large(instance));
             }
             // The last placement takes the shapes themselves: there may be millions.
             let shapes = match left {
@@ -215,7 +214,7 @@ impl<'a> Walk<'a, '_> {
                 continue;
             }
             let style = style.within(placement.style);
-            self.drawing.items.push(Item {
+            let item = Item {
                 kind: found.kind,
                 shapes,
                 group: self.drawing.path(&style.group()),
@@ -225,7 +224,11 @@ impl<'a> Walk<'a, '_> {
                 hidden: false,
                 space,
                 at: instance.line,
-            });
+            };
+            if !self.file.spend(item.own_memory(self.drawing.items.last())) {
+                return self.skip(Flaw::too_large(instance));
+            }
+            self.drawing.items.push(item);
         }
     }
 

@@ -55,7 +55,7 @@ impl Maker {
             self.room.memory = self
                 .room
                 .memory
-                .saturating_sub(size(&item, self.items.last()));
+                .saturating_sub(item.memory(self.items.last()));
             self.items.push(item);
         } else {
             self.infinite += 1;
@@ -67,21 +67,4 @@ impl Maker {
     pub(super) fn is_full(&self) -> bool {
         self.room.memory == 0 || self.items.len() >= self.room.items
     }
-}
-
-/// Get about how many bytes an item takes behind another.
-fn size(item: &Item, before: Option<&Item>) -> usize {
-    /// What an allocation costs beside its contents.
-    const ALLOCATION: usize = 16;
-    let shapes = item.shapes.iter().map(|shape| {
-        let inner = match shape {
-            Shape::Nurbs(nurbs) => {
-                size_of_val(nurbs.points.as_slice()) + size_of_val(nurbs.knots.as_slice())
-            }
-            Shape::Polyline { points, .. } => size_of_val(points.as_slice()),
-            Shape::Conic(_) | Shape::Point(_) => 0,
-        };
-        size_of::<Shape>() + inner + 2 * ALLOCATION
-    });
-    size_of::<Item>() + ALLOCATION + item.texts_size(before) + shapes.sum::<usize>()
 }

@@ -337,9 +337,7 @@ impl Walk<'_, '_> {
             space,
             at: place(record.at),
         };
-        let texts = item.texts_size(items.last());
-        let shapes = item.shapes.iter().map(size).sum::<usize>();
-        if report.spend(1, 2 * size_of::<Item>() + texts + shapes) {
+        if report.spend(1, item.memory(items.last())) {
             report.hidden += usize::from(hidden);
             report.drawing.items.push(item);
         }
@@ -368,14 +366,4 @@ fn remark(record: &Record, reason: &str) -> String {
     };
     let class = record.object.class.name();
     format!("byte {}: {class}{name}: {reason}", place(record.at))
-}
-
-/// The bytes that a shape takes.
-fn size(shape: &Shape) -> usize {
-    let more = match shape {
-        Shape::Nurbs(nurbs) => 8 * nurbs.knots.len() + 32 * nurbs.points.len(),
-        Shape::Polyline { points, .. } => 24 * points.len(),
-        Shape::Conic(_) | Shape::Point(_) => 0,
-    };
-    size_of::<Shape>() + more
 }
