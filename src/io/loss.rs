@@ -122,6 +122,8 @@ pub enum Loss {
     },
     /// The attributes of the points of a contour.
     PointAttributes,
+    /// That its contour closes.
+    Opened,
     /// That an end is kept matched to another curve.
     Match {
         /// The end.
@@ -526,6 +528,7 @@ impl Loss {
             Self::AsSpline { was } => {
                 format!("the {was} becomes a spline of the same form in the {format}")
             }
+            Self::Opened => "its contour does not close any more".to_owned(),
             Self::PointAttributes => "names and smoothness of its points are lost".to_owned(),
             Self::Colour => lost("the colour isn't"),
             Self::NearestColour => {

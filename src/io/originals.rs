@@ -363,7 +363,7 @@ fn contours_go_come_and_change_their_points() {
         .expect("bytes");
     let told = written.export.losses.to_string();
     assert!(
-        told.contains("names and smoothness of its points are lost"),
+        told.contains("“o 2”: its contour does not close any more"),
         "{told}"
     );
     let text = kept(written);

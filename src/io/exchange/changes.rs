@@ -2,9 +2,15 @@
 
 use std::collections::HashMap;
 
+use glam::DVec3;
+
 use super::drawing::{Affine, Item, Shape};
+use super::splines::spline;
 use super::writing::Manner;
 use crate::io::loss::LossReport;
+
+/// An end that is off by so little, per size, has not moved.
+const ROUNDING: f64 = 1e-9;
 
 /// Writes changes into the bytes of a file, or says why that is not possible.
 type Rewrite = fn(&[u8], &Changes, &mut LossReport) -> Result<Vec<u8>, String>;
@@ -44,16 +50,52 @@ impl Changes {
 }
 
 impl ItemChange {
-    /// Put what stands for the shapes of the item, placed, in their places.
+    /// Put what stands for the shapes of the item, placed, in their places. Ends that stay but for rounding are those
+    /// of the file, so that pieces go on to meet.
     pub(super) fn applied(&self, shapes: Vec<Shape>, place: &Affine) -> Vec<Shape> {
         let shapes = shapes.into_iter().enumerate();
         let changed = shapes.flat_map(|(index, shape)| match self.shapes.get(index) {
             Some(Some(shapes)) => {
                 let shapes = shapes.iter().cloned();
-                shapes.map(|it| it.placed(place)).collect()
+                let mut shapes: Vec<Shape> = shapes.map(|it| it.placed(place)).collect();
+                keep_ends(&mut shapes, &shape);
+                shapes
             }
             _ => vec![shape],
         });
         changed.collect()
+    }
+}
+
+/// Give a chain of shapes the ends of the one that it stands for, where they are off by rounding alone.
+fn keep_ends(shapes: &mut [Shape], before: &Shape) {
+    let Some(old) = spline(before).filter(|_| !is_closed(before)) else {
+        return;
+    };
+    let size = old.points.iter().map(|it| it.abs().max_element());
+    let rounding = ROUNDING * size.fold(0.0, f64::max);
+    let keep = |new: Option<&mut DVec3>, old: Option<&DVec3>| {
+        if let (Some(new), Some(old)) = (new, old)
+            && new.distance(*old) <= rounding
+        {
+            *new = *old;
+        }
+    };
+    let first = shapes.first_mut().and_then(corners);
+    keep(first.and_then(<[_]>::first_mut), old.points.first());
+    let last = shapes.last_mut().and_then(corners);
+    keep(last.and_then(<[_]>::last_mut), old.points.last());
+}
+
+fn is_closed(shape: &Shape) -> bool {
+    matches!(shape, Shape::Polyline { closed: true, .. })
+}
+
+/// The points of an open shape, of which the first and the last are its ends.
+fn corners(shape: &mut Shape) -> Option<&mut [DVec3]> {
+    match shape {
+        Shape::Nurbs(nurbs) => Some(&mut nurbs.points),
+        Shape::Polyline { points, closed } => Some(&mut points[..]).filter(|_| !*closed),
+        Shape::Conic(_) | Shape::Point(_) => None,
     }
 }

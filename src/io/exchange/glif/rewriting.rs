@@ -1,6 +1,7 @@
 //! Writes changed contours into the text of a glyph. Where a contour keeps the kinds of its points, their coordinates
 //! alone change; everything else stays as it was, to the byte.
 
+use glam::DVec3;
 use roxmltree::{Document, Node};
 
 use super::super::changes::Changes;
@@ -29,20 +30,24 @@ pub(super) fn rewritten(
             continue;
         };
         let node = document.get_node(place).ok_or("the file is damaged")?;
+        let was_open = contours(&item.shapes)?.iter().any(Contour::is_open);
         let shapes = change.applied(item.shapes, &Affine::default());
-        let is_kept =
-            contour(text, node, &contours(&shapes)?, &mut edits).ok_or("the file is damaged")?;
+        let new = contours(&shapes)?;
+        let is_kept = contour(text, node, &new, &mut edits).ok_or("the file is damaged")?;
+        let mut lose = |loss| losses.losses.push((change.name.clone(), loss));
         if !is_kept {
-            losses
-                .losses
-                .push((change.name.clone(), Loss::PointAttributes));
+            lose(Loss::PointAttributes);
+        }
+        if !was_open && new.iter().any(Contour::is_open) {
+            lose(Loss::Opened);
         }
     }
     add(text, &document, changes, &mut edits)?;
     edits.written(bytes, text, before)
 }
 
-/// Put contours in the place of one. Returns whether the points keep their attributes.
+/// Put contours in the place of one. Points that have not changed keep their text. Returns whether all keep their
+/// attributes.
 fn contour(text: &str, node: Node, new: &[Contour], edits: &mut TextEdits) -> Option<bool> {
     let range = node.range();
     if new.is_empty() {
@@ -60,13 +65,27 @@ fn contour(text: &str, node: Node, new: &[Contour], edits: &mut TextEdits) -> Op
     }
     let points = || node.children().filter(|it| it.has_tag_name("point"));
     let (first, last) = (points().next()?, points().next_back()?);
+    let kept = |at: DVec3, kind: Option<&str>| {
+        let own = points().find(|it| self::kind(it) == kind && point_of(it) == Some(at))?;
+        text.get(own.range())
+    };
+    let has_more = |node: &Node| {
+        let mut names = node.attributes().map(|it| it.name().to_owned());
+        names.any(|name| !["x", "y", "type"].contains(&name.as_str()))
+    };
+    let is_kept = |old: &Node| {
+        let (at, kind) = (point_of(old), self::kind(old));
+        let mut new = new.iter().flat_map(|contour| &contour.points);
+        new.any(|(point, its)| Some(*point) == at && *its == kind)
+    };
+    let are_kept = points().filter(has_more).all(|it| is_kept(&it));
     let before = text.get(..first.range().start)?;
     let indent = before.get(before.trim_end_matches([' ', '\t']).len()..)?;
     let mut written = String::new();
     let [first_new, others @ ..] = new else {
         return None;
     };
-    first_new.write_points(&mut written, indent);
+    first_new.write_points(&mut written, indent, kept);
     let inside = written.trim().to_owned();
     edits.replace(first.range().start..last.range().end, inside);
     let mut written = String::new();
@@ -74,17 +93,23 @@ fn contour(text: &str, node: Node, new: &[Contour], edits: &mut TextEdits) -> Op
     if !written.is_empty() {
         edits.replace(range.end..range.end, format!("\n{}", written.trim_end()));
     }
-    Some(false)
+    Some(are_kept)
+}
+
+/// The type of a point on the curve.
+fn kind<'a>(node: &Node<'a, '_>) -> Option<&'a str> {
+    node.attribute("type").filter(|kind| *kind != "offcurve")
+}
+
+fn point_of(node: &Node) -> Option<DVec3> {
+    let coordinate = |name| node.attribute(name)?.trim().parse().ok();
+    Some(DVec3::new(coordinate("x")?, coordinate("y")?, 0.0))
 }
 
 /// Move the points of a contour to those of another one, if these are of the same kinds. Returns whether they are.
 fn moved(node: Node, new: &Contour, edits: &mut TextEdits) -> bool {
     let points = node.children().filter(|it| it.has_tag_name("point"));
     let points: Vec<Node> = points.collect();
-    let kind = |node: &Node| {
-        let kind = node.attribute("type");
-        kind.filter(|kind| *kind != "offcurve").map(str::to_owned)
-    };
     // The reader begins at the first point on the curve.
     let first = points.iter().position(|it| kind(it).is_some());
     let mut turned = points.clone();
@@ -93,7 +118,7 @@ fn moved(node: Node, new: &Contour, edits: &mut TextEdits) -> bool {
         && turned
             .iter()
             .zip(&new.points)
-            .all(|(old, (_, new))| kind(old).as_deref() == *new);
+            .all(|(old, (_, new))| kind(old) == *new);
     if !is_same {
         return false;
     }

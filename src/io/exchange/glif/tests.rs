@@ -1,9 +1,12 @@
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{read, write};
+use super::{read, rewriting, write};
+use crate::io::exchange::changes::{Changes, ItemChange};
 use crate::io::exchange::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
+use crate::io::loss::{Loss, LossReport};
 
 fn glyph(outline: &str) -> Drawing {
     let text = format!(
@@ -280,4 +283,65 @@ fn mutations_do_not_panic() {
     super::super::mutate::all(&files[3..6], 1000, 0, |bytes| {
         let _ = read(bytes);
     });
+}
+
+#[test]
+fn a_piece_that_is_drawn_anew_leaves_its_contour_closed_and_other_points_as_they_are() {
+    let glyph = r#"<?xml version="1.0"?>
+<glyph name="n" format="2">
+  <outline>
+    <contour>
+      <point x="0" y="0" type="line" smooth="yes"/>
+      <point x="0" y="50"/>
+      <point x="50" y="100"/>
+      <point x="100" y="100" type="curve" smooth="yes"/>
+      <point x="100" y="0" type="line" name="foot"/>
+    </contour>
+  </outline>
+</glyph>
+"#;
+    let cubic = |points: [[f64; 2]; 4]| {
+        Shape::Nurbs(Nurbs {
+            degree: 3,
+            knots: [[0.0; 4], [1.0; 4]].concat(),
+            points: points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+            weights: None,
+            periodic: false,
+        })
+    };
+    let rewritten = |end: f64| {
+        let halves = vec![
+            cubic([[6e-15, 0.0], [0.0, 25.0], [12.0, 50.0], [35.0, 70.0]]),
+            cubic([[35.0, 70.0], [60.0, 90.0], [75.0, 100.0], [100.0, end]]),
+        ];
+        let change = ItemChange {
+            name: "n".to_owned(),
+            shapes: vec![Some(halves), None],
+        };
+        let changes = Changes {
+            items: HashMap::from([(0, change)]),
+            added: Vec::new(),
+        };
+        let mut losses = LossReport::new("GLIF");
+        let bytes = rewriting::rewritten(glyph.as_bytes(), &changes, &mut losses);
+        let text = String::from_utf8(bytes.expect("a glyph")).expect("text");
+        let losses: Vec<Loss> = losses.losses.into_iter().map(|it| it.1).collect();
+        (text, losses)
+    };
+    let (text, losses) = rewritten(99.999_999_999_999_99);
+    assert_eq!(losses, []);
+    assert_eq!(text.matches("<contour>").count(), 1);
+    for kept in [
+        "<point x=\"0\" y=\"0\" type=\"line\" smooth=\"yes\"/>",
+        "<point x=\"100\" y=\"100\" type=\"curve\" smooth=\"yes\"/>",
+        "<point x=\"100\" y=\"0\" type=\"line\" name=\"foot\"/>",
+    ] {
+        assert!(text.contains(kept), "{text}");
+    }
+    let found = read(text.as_bytes()).expect("a glyph");
+    assert_eq!(found.items.len(), 1);
+    // An end that has moved opens the contour, and that is told.
+    let (text, losses) = rewritten(90.0);
+    assert!(text.contains("type=\"move\""));
+    assert_eq!(losses, [Loss::PointAttributes, Loss::Opened]);
 }

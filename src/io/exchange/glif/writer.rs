@@ -65,13 +65,28 @@ impl Contour {
     /// Write the contour with its tags.
     pub(super) fn write(&self, text: &mut String) {
         text.push_str("    <contour>\n");
-        self.write_points(text, "      ");
+        self.write_points(text, "      ", |_, _| None);
         text.push_str("    </contour>\n");
     }
 
-    /// Write the points, a line each.
-    pub(super) fn write_points(&self, text: &mut String, indent: &str) {
+    /// Whether it does not close.
+    pub(super) fn is_open(&self) -> bool {
+        self.points.first().is_some_and(|it| it.1 == Some("move"))
+    }
+
+    /// Write the points, a line each; `kept` gives those that stand in the file already.
+    pub(super) fn write_points<'t>(
+        &self,
+        text: &mut String,
+        indent: &str,
+        kept: impl Fn(DVec3, Option<&str>) -> Option<&'t str>,
+    ) {
         for (point, kind) in &self.points {
+            if let Some(own) = kept(*point, *kind) {
+                // Writing to a string cannot fail.
+                let _ = writeln!(text, "{indent}{own}");
+                continue;
+            }
             let kind = kind.map(|it| format!(" type=\"{it}\"")).unwrap_or_default();
             // Writing to a string cannot fail.
             let _ = writeln!(
