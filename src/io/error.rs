@@ -471,6 +471,9 @@ pub enum FormatError {
         /// The extensions that could be used.
         known: String,
     },
+    /// The file is a drawing of AutoCAD in its own format.
+    #[error("DWG files are not read or written: use DXF, which the same programs know")]
+    Dwg,
     /// The extension is unknown.
     #[error("“.{}” is not a format Batten knows: use one of {known}", cut(.extension))]
     UnknownExtension {

@@ -112,6 +112,9 @@ fn by_extension(path: &Path, known: impl Fn() -> String) -> Result<&'static Form
     let Some(extension) = path.extension() else {
         return Err(FormatError::NoExtension { known: known() });
     };
+    if extension.eq_ignore_ascii_case("dwg") {
+        return Err(FormatError::Dwg);
+    }
     let format = extension.to_str().and_then(find);
     format.ok_or_else(|| FormatError::UnknownExtension {
         extension: extension.to_string_lossy().into_owned(),
@@ -160,6 +163,10 @@ mod tests {
         check(
             "a.docx",
             &format!("“.docx” is not a format Batten knows: use one of {readable}"),
+        );
+        check(
+            "a.DWG",
+            "DWG files are not read or written: use DXF, which the same programs know",
         );
         check(
             "folder.csv/arc",
