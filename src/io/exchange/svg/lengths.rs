@@ -136,7 +136,7 @@ impl Resolution {
 
     fn remark(self) -> String {
         match self {
-            Self::Standard => "the file has no unit of length; by the standard 96 pixels are an inch",
+            Self::Standard => "the file has no unit of length; pixels are 96 an inch by the standard",
             Self::Illustrator => {
                 "the file is by Illustrator, which counts 72 pixels an inch, but not all programs do"
             }

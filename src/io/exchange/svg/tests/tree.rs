@@ -258,7 +258,7 @@ fn units_of_the_page() {
             "{attributes}"
         );
     }
-    assert!(drawing("width='100'", line).remarks[0].contains("96 pixels"));
+    assert!(drawing("width='100'", line).remarks[0].contains("96 an inch"));
     assert!(drawing("inkscape:version='0.91'", line).remarks[0].contains("90 pixels"));
     let text = "<!-- Generator: Adobe Illustrator 24 -->\
                 <svg width='100px' height='50px'><path d='M1 1h1'/></svg>";
