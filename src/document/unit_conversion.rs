@@ -9,6 +9,7 @@ use super::reference::Reference;
 use crate::geometry::FloatPolygon;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::expressions::LengthUnit;
+use crate::geometry::references::{Placement, ReferenceCurve, ReferenceError};
 use glam::DVec3;
 
 impl Document {
@@ -81,13 +82,27 @@ fn converted_curve(curve: &Curve, converted: &impl Fn(f64) -> f64) -> Result<Cur
 }
 
 fn converted_reference(reference: &Reference, factor: f64) -> Result<Reference, EditError> {
-    let curve = &reference.curve;
-    let placement = curve.placement().scaled_about(DVec3::ZERO, factor);
-    let placement = placement.map_err(|error| EditError::Reference {
+    let curve = larger(&reference.curve, factor).map_err(|error| EditError::Reference {
         name: reference.name.clone(),
         error,
     })?;
-    let mut changed = reference.clone();
-    changed.curve = curve.clone().placed(placement);
-    Ok(changed)
+    Ok(Reference {
+        curve,
+        ..reference.clone()
+    })
+}
+
+/// The curve larger about the origin: by its own numbers where it can be, so that a radius is the one that is seen.
+fn larger(curve: &ReferenceCurve, factor: f64) -> Result<ReferenceCurve, ReferenceError> {
+    let placement = curve.placement();
+    match curve.form().scaled(factor) {
+        Some(form) => {
+            let (rotation, scale) = (placement.rotation(), placement.scale());
+            let placement = Placement::new(rotation, scale, factor * placement.translation())?;
+            ReferenceCurve::new(form, curve.interval(), placement)
+        }
+        None => Ok(curve
+            .clone()
+            .placed(placement.scaled_about(DVec3::ZERO, factor)?)),
+    }
 }

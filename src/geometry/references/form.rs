@@ -108,6 +108,21 @@ impl ReferenceForm {
         }
     }
 
+    /// Make it larger about its origin by its own numbers, at the same parameters. `None` for formulas, frames and kinds
+    /// that are not sized by lengths alone, which are placed larger, and where a number leaves its range.
+    pub fn scaled(&self, factor: f64) -> Option<Self> {
+        match self {
+            Self::Analytic(form) => {
+                let sizes = form.half_axes().and(Some(&form.values))?;
+                let sizes = sizes.iter().map(|size| factor * size).collect();
+                AnalyticForm::new(form.kind, sizes).ok().map(Self::Analytic)
+            }
+            Self::Points(points) => points.scaled(factor).ok().map(Self::Points),
+            Self::Nurbs(nurbs) => nurbs.scaled(factor).ok().map(Self::Nurbs),
+            Self::Formula(_) | Self::Frame(_) => None,
+        }
+    }
+
     /// Its label in menus and lists.
     pub fn label(&self) -> &'static str {
         match self {

@@ -103,6 +103,19 @@ impl Nurbs {
         })
     }
 
+    /// Make the curve larger about the origin.
+    ///
+    /// # Errors
+    /// [`NurbsError::Point`] if a point leaves its range.
+    pub(super) fn scaled(&self, factor: f64) -> Result<Self, NurbsError> {
+        let points: Arc<[DVec3]> = self.points.iter().map(|point| factor * *point).collect();
+        check(self.degree, &self.knots, &points, self.weights.as_deref())?;
+        Ok(Self {
+            points,
+            ..self.clone()
+        })
+    }
+
     /// The degree.
     pub fn degree(&self) -> usize {
         self.degree

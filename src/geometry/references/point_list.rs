@@ -60,6 +60,18 @@ impl PointList {
         })
     }
 
+    /// Make the list larger about the origin.
+    ///
+    /// # Errors
+    /// [`ReferenceError::BadPoint`] if a point leaves its range.
+    pub(super) fn scaled(&self, factor: f64) -> Result<Self, ReferenceError> {
+        let points = self.points.iter().map(|point| factor * *point);
+        Ok(Self {
+            points: Self::new(points.collect())?.points,
+            ..self.clone()
+        })
+    }
+
     /// Take the points as single ones: no straight lines join them in drawings.
     #[must_use]
     pub fn apart(self) -> Self {
