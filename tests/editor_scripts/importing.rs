@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use batten::document::{Document, Edit, Reference};
 use batten::editor::{Command, Editor, FileAnswer};
 use batten::geometry::expressions::LengthUnit;
-use batten::geometry::references::ReferenceCurve;
+use batten::geometry::references::{ReferenceCurve, ReferenceForm};
 use batten::io::exchange::import::ImportChoice;
 use batten::operations::Value;
+use glam::DVec3;
 use tempfile::TempDir;
 
 use crate::drawings::{dxf, uneven_spline};
@@ -73,6 +74,47 @@ fn a_file_without_a_unit_waits_for_what_is_taken() {
     editor.execute(Command::Undo).expect("one step");
     assert!(editor.document().is_empty());
     assert_eq!(editor.document().unit(), None);
+}
+
+#[test]
+fn a_circle_of_another_unit_has_the_radius_that_is_seen() {
+    let folder = folder();
+    let circle = "  0\nCIRCLE\n 10\n3\n 20\n0\n 40\n2\n";
+    let text = dxf(Some(1), &[], 0).replace("ENTITIES\n", &format!("ENTITIES\n{circle}"));
+    let path = file(&folder, "inch.dxf", &text);
+    let mut editor = Editor::new();
+    let unit = Some(LengthUnit::Millimetre);
+    editor
+        .apply("Unit", vec![Edit::SetUnit(unit)])
+        .expect("a unit");
+    editor.import(&[path]).expect("a circle");
+    let (_, circle) = editor.document().references().last().expect("a circle");
+    let ReferenceForm::Analytic(form) = circle.curve.form() else {
+        panic!("no circle");
+    };
+    assert_eq!(form.values(), [50.8]);
+    let placement = circle.curve.placement();
+    let place = DVec3::new(3.0 * 25.4, 0.0, 0.0);
+    assert_eq!((placement.scale(), placement.translation()), (1.0, place));
+}
+
+#[test]
+fn a_view_of_references_alone_is_fitted_where_a_curve_was_before() {
+    let folder = folder();
+    let path = file(&folder, "small.dxf", &dxf(Some(4), &LINES[2..], 0));
+    let mut script = Script::example("arc");
+    script.command(Command::FitAll);
+    script.editor.open(&[path]).expect("a line");
+    script.command(Command::FitAll);
+    script.scene();
+    let viewport = script.editor.view().viewport();
+    // The line is 10 mm long, and the canvas some hundred points.
+    let length = 10.0 * viewport.scale;
+    assert!(
+        length > 0.5 * viewport.size.x,
+        "{length} of {}",
+        viewport.size
+    );
 }
 
 #[test]

@@ -41,6 +41,8 @@ impl Outlines {
             let outlined = self.curves.entry(id).or_default();
             outlined.curve.update(reference.sampled(), orientation);
             outlined.float.update(reference.points(), orientation);
+            // A curve of another document may have had the identity.
+            outlined.clamped = ChainOutlines::default();
         }
     }
 
