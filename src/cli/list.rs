@@ -99,8 +99,8 @@ pub(super) fn run(
         Space::Paper => listed.paper,
         Space::Edge => listed.edges,
     };
-    let rows = drawing.found().rows;
-    let rows = rows.iter().filter(|row| is_listed(row.key.space));
+    let found = drawing.found();
+    let rows = found.rows.iter().filter(|row| is_listed(row.key.space));
     let items = drawing.items.iter().filter(|item| is_listed(item.space));
     let others = drawing.other.iter().map(|other| ListedOther {
         kind: other.kind.clone(),
@@ -113,7 +113,7 @@ pub(super) fn run(
         rows: OneByOne::new(rows.map(ListedRow::of)),
         items: OneByOne::new(items.map(ListedItem::of)),
         other: others.collect(),
-        remarks: &drawing.remarks,
+        remarks: &found.remarks,
     })
 }
 

@@ -9,6 +9,7 @@ use super::choice::free_space;
 pub use super::choice::{ImportChoice, RowKey};
 use super::drawing::{Drawing, Item, Kind, Other, Shape, Space};
 use super::pieces::is_finite;
+use super::remarks::Remarks;
 use super::single_points::{SinglePoint, lists};
 use super::splines::outermost;
 use crate::geometry::expressions::LengthUnit;
@@ -123,7 +124,8 @@ impl FoundRow {
         }
     }
 
-    fn add(&mut self, item: &Item) {
+    /// Count an item; tell why it is no curve, if it is none.
+    fn add(&mut self, item: &Item, remarks: &mut Remarks) {
         self.count += 1;
         let splines = || item.shapes.iter().filter_map(Shape::nurbs);
         for nurbs in splines() {
@@ -134,11 +136,14 @@ impl FoundRow {
         self.rational += usize::from(splines().any(|nurbs| nurbs.weights.is_some()));
         self.periodic += usize::from(splines().any(|nurbs| nurbs.periodic));
         for shape in &item.shapes {
-            if let Some(nurbs) = shape.nurbs().and_then(|drawn| drawn.checked().ok()) {
-                self.add_spline(&nurbs);
-                continue;
-            }
             match shape {
+                Shape::Nurbs(drawn) => match drawn.checked() {
+                    Ok(nurbs) => self.add_spline(&nurbs),
+                    Err(error) => {
+                        let kind = item.kind.name();
+                        remarks.add(format!("{kind} (at {}) is no curve: {error}", item.at));
+                    }
+                },
                 Shape::Point(point) => widen(&mut self.bounds, *point),
                 Shape::Conic(conic) if conic.is_curve() => {
                     self.references += 1;
@@ -149,7 +154,7 @@ impl FoundRow {
                     self.references += 1;
                     points.iter().for_each(|it| widen(&mut self.bounds, *it));
                 }
-                Shape::Conic(_) | Shape::Polyline { .. } | Shape::Nurbs(_) => {}
+                Shape::Conic(_) | Shape::Polyline { .. } => {}
             }
         }
     }
@@ -183,6 +188,7 @@ impl Drawing {
         let mut rows: Vec<FoundRow> = Vec::new();
         let mut places: HashMap<(Space, &[String], Kind), usize> = HashMap::new();
         let mut points: HashMap<usize, Vec<SinglePoint>> = HashMap::new();
+        let mut remarks = Remarks::default();
         for item in &self.items {
             let key = (item.space, &item.group[..], item.kind);
             let place = *places.entry(key).or_insert_with(|| {
@@ -190,7 +196,7 @@ impl Drawing {
                 rows.len() - 1
             });
             if let Some(row) = rows.get_mut(place) {
-                row.add(item);
+                row.add(item, &mut remarks);
             }
             for point in SinglePoint::of(item) {
                 points.entry(place).or_default().push(point);
@@ -211,7 +217,7 @@ impl Drawing {
             is_unitless: self.is_unitless,
             rows,
             other: self.other.clone(),
-            remarks: self.remarks.clone(),
+            remarks: [self.remarks.clone(), remarks.finish()].concat(),
             is_binary: self.is_binary,
         }
     }
@@ -696,5 +702,30 @@ mod tests {
              1 edge of a solid or surface left out\n\
              not understood: 2 HATCH, the first at line 120"
         );
+    }
+
+    #[test]
+    fn pieces_of_a_spline_that_meet_at_a_full_knot_are_one_curve() {
+        let spline = |gap: f64| {
+            let x = [0.0, 1.0, 2.0, 2.0 + gap, 3.0, 4.0];
+            Shape::Nurbs(Nurbs {
+                degree: 2,
+                knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0],
+                points: x.map(|x| DVec3::new(x, x * x, 0.0)).to_vec(),
+                weights: None,
+                periodic: false,
+            })
+        };
+        let drawing = |gap| Drawing {
+            items: vec![item(&["0"], Kind::Spline, Space::Model, spline(gap))],
+            ..Drawing::default()
+        };
+        let (reading, found) = (drawing(0.0).reading(), drawing(0.0).found());
+        assert_eq!((reading.references.len(), found.remarks), (1, vec![]));
+        let (reading, found) = (drawing(0.1).reading(), drawing(0.1).found());
+        assert_eq!(reading.references.len(), 0);
+        let why =
+            "spline (at 7) is no curve: knot 3 is repeated so often that the curve breaks there";
+        assert_eq!(found.remarks, [why]);
     }
 }

@@ -21,6 +21,9 @@ use crate::io::reading::{Reading, Remark};
 /// Axes whose angle or length differs by less than this share are perpendicular, or of one length.
 const SAME: f64 = 1e-12;
 
+/// Points that are so little apart, per size, are one: pieces of a spline meet there.
+const JOINED: f64 = 1e-12;
+
 /// What a shape becomes.
 pub(super) enum Made {
     Curve(NearestFloat),
@@ -99,16 +102,56 @@ impl DrawnNurbs {
     /// # Errors
     /// [`ReferenceError`] if they are no curve.
     pub fn checked(&self) -> Result<Nurbs, ReferenceError> {
-        let (knots, points) = (&self.knots[..], &self.points[..]);
-        let weights = self.weights.clone();
+        let whole = self.joined();
+        let (knots, points) = (&whole.knots[..], &whole.points[..]);
+        let weights = whole.weights.clone();
         Ok(Nurbs::new(
-            self.degree,
+            whole.degree,
             knots,
             points,
             weights,
-            self.periodic,
+            whole.periodic,
         )?)
     }
+
+    /// The same curve without the points that stand twice, at both sides of an inner knot that is once more multiple
+    /// than the degree: its pieces meet there.
+    fn joined(&self) -> Cow<'_, Self> {
+        let (n, knots, points) = (self.degree, &self.knots, &self.points);
+        let Some(last) = knots.get(points.len()).filter(|_| n > 0) else {
+            return Cow::Borrowed(self);
+        };
+        let size = points.iter().map(|it| it.abs().max_element());
+        let near = JOINED * size.fold(0.0, f64::max);
+        let meet = |index: usize| {
+            let weights = self.weights.as_ref();
+            let are_alike = weights.is_none_or(|it| it.get(index - 1) == it.get(index));
+            are_alike && points[index - 1].distance(points[index]) <= near
+        };
+        let is_doubled = |index: usize| {
+            let (first, behind) = (knots[index], knots.get(index + n));
+            behind == Some(&first) && knots[index - 1] < first && first < *last && meet(index)
+        };
+        let doubled: HashSet<usize> = (n + 1..points.len()).filter(|it| is_doubled(*it)).collect();
+        if doubled.is_empty() {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(Self {
+            knots: without(knots, &doubled),
+            points: without(points, &doubled),
+            weights: self.weights.as_ref().map(|it| without(it, &doubled)),
+            ..*self
+        })
+    }
+}
+
+/// The elements that are not at some places.
+fn without<T: Copy>(all: &[T], places: &HashSet<usize>) -> Vec<T> {
+    let kept = all
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| !places.contains(index));
+    kept.map(|(_, element)| *element).collect()
 }
 
 /// The unit of a file with so many millimetres to its unit, and the factor to it.
