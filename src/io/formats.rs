@@ -130,7 +130,14 @@ fn extensions(formats: impl Iterator<Item = &'static Format>) -> String {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
+    use crate::document::{Curve, Document, Reference};
+    use crate::geometry::FloatPolygon;
+    use crate::geometry::expressions::LengthUnit;
+    use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
+    use crate::io::Loss;
 
     #[test]
     fn the_extension_tells_the_format_in_either_case() {
@@ -187,5 +194,35 @@ mod tests {
                 "GPX files can be read but not written: the formats that can be written are {writable}"
             ),
         );
+    }
+
+    #[test]
+    fn what_is_hidden_comes_back_hidden_from_formats_that_hold_it_and_is_told_by_others() {
+        let polygon = FloatPolygon::planar(2, &[(0.0, 0.0), (1.0, 2.0), (3.0, 0.0)]);
+        let mut curve = Curve::new("sheer", polygon.expect("a polygon"));
+        curve.visible = false;
+        let points = PointList::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y]).expect("points");
+        let points = ReferenceCurve::of(ReferenceForm::Points(points)).expect("a reference");
+        let mut reference = Reference::new("scan", points);
+        reference.visible = false;
+        let document = Document::from_curves([curve]).with_references([reference]);
+        let document = document.with_unit(Some(LengthUnit::Millimetre));
+        for (extension, holds) in [
+            ("3dm", true),
+            ("igs", true),
+            ("step", false),
+            ("obj", false),
+        ] {
+            let format = find(extension).expect("a format");
+            let export = format.write(&document, None).expect("a file");
+            let told = export.losses.losses.iter();
+            let told = told.filter(|(_, loss)| *loss == Loss::Hidden).count();
+            assert_eq!(told, if holds { 0 } else { 2 }, "{extension}");
+            let reading = format.read(&export.bytes).expect("a drawing");
+            let curves = reading.curves.iter().filter(|it| it.visible).count();
+            let references = reading.references.iter().filter(|it| it.visible).count();
+            let visible = if holds { 0 } else { 1 };
+            assert_eq!((curves, references), (visible, visible), "{extension}");
+        }
     }
 }

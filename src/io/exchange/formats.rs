@@ -69,7 +69,11 @@ pub static IGES: Format = Format {
     file_unit: FileUnit::Always,
     draw: Some(iges::read),
     write: Some(|document, writing, losses| {
-        written(document, writing, losses, SPLINES, iges::write)
+        let manner = Manner {
+            hides: true,
+            ..SPLINES
+        };
+        written(document, writing, losses, manner, iges::write)
     }),
     exports: &[ExportRow {
         label: "Export IGES…",
@@ -94,6 +98,7 @@ pub static THREEDM: Format = Format {
             losses,
             Manner {
                 kept: threedm::kept_group,
+                hides: true,
                 as_splines: threedm::is_spline,
                 ..SPLINES
             },
@@ -301,6 +306,7 @@ const SPLINES: Manner = Manner {
     holds: |_| Ok(()),
     marks: Marks::ALL,
     as_splines: |_| false,
+    hides: false,
 };
 
 fn drawn(

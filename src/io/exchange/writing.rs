@@ -30,6 +30,8 @@ pub(in crate::io) struct Manner {
     pub(in crate::io) marks: Marks,
     /// Which shapes become splines of the same form.
     pub(in crate::io) as_splines: fn(&Shape) -> bool,
+    /// Whether it holds that items are hidden.
+    pub(in crate::io) hides: bool,
 }
 
 /// What a format holds of the names and colours of items.
@@ -114,13 +116,14 @@ impl Item {
         losses: &mut LossReport,
     ) -> Option<Self> {
         let mut own = LossReport::new(losses.format);
-        report(curve, &mut own);
+        report(curve, manner.hides, &mut own);
         report_group(&curve.name, &curve.group, manner.kept, &mut own);
         let is_coloured = curve.colour.is_some();
         manner.marks.report(&curve.name, is_coloured, &mut own);
         let shape = manner.written.shape(curve, &mut own);
         let item = Self {
             group: curve.group.names().into(),
+            hidden: !curve.visible,
             colour: curve.colour.map(|colour| colour.0),
             ..named(&curve.name, Kind::Spline, shape)
         };
@@ -141,10 +144,15 @@ impl Item {
         report_group(&reference.name, &reference.group, manner.kept, &mut own);
         let is_coloured = reference.colour.is_some();
         manner.marks.report(&reference.name, is_coloured, &mut own);
-        own.add_state(&reference.name, reference.visible, reference.locked);
+        own.add_state(
+            &reference.name,
+            reference.visible || manner.hides,
+            reference.locked,
+        );
         let items = shapes.into_iter().filter_map(|shape| {
             let named = |shape: Shape| Self {
                 group: reference.group.names().into(),
+                hidden: !reference.visible,
                 colour: reference.colour.map(|colour| colour.0),
                 ..named(&reference.name, kind, shape)
             };
@@ -237,10 +245,10 @@ fn named(name: &str, kind: Kind, shape: Shape) -> Item {
     }
 }
 
-fn report(curve: &Curve, losses: &mut LossReport) {
+fn report(curve: &Curve, hides: bool, losses: &mut LossReport) {
     losses.add_attributes(curve);
     losses.losses.retain(|(_, loss)| *loss != Loss::Colour);
-    losses.add_state(&curve.name, curve.visible, curve.locked);
+    losses.add_state(&curve.name, curve.visible || hides, curve.locked);
 }
 
 fn report_group(name: &str, group: &Group, kept: KeptGroup, losses: &mut LossReport) {

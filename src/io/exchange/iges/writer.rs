@@ -16,6 +16,8 @@ use super::spline_part::{check, end_points, is_finite};
 
 /// Status of what stands alone.
 const FREE: &str = "00000000";
+/// The same, hidden.
+const BLANKED: &str = "01000000";
 /// Status of pieces of composite curves.
 const PIECE: &str = "00010000";
 /// Status of edges: use flag 06, construction geometry.
@@ -177,10 +179,10 @@ impl Writer {
             .colour
             .map(|colour| self.colour(colour))
             .unwrap_or_default();
-        entity.status = if item.space == Space::Edge {
-            EDGE
-        } else {
-            FREE
+        entity.status = match item.space {
+            Space::Edge => EDGE,
+            _ if item.hidden => BLANKED,
+            _ => FREE,
         };
         if let Some(name) = item.name.as_ref().filter(|name| !name.trim().is_empty()) {
             let property = self.sheet.add(Entity {

@@ -138,8 +138,8 @@ fn attributes(layer: i32, item: &Item, is_own: bool, id: u128) -> Output {
         // A line style that is not used, and the wire density.
         .bytes(&[0; 20])
         .int(1)
-        // Shown; the source of the colour; line type and material of the layer.
-        .bytes(&[0, u8::from(is_own), 0, 0])
+        // Whether it is hidden; the source of the colour; line type and material of the layer.
+        .bytes(&[u8::from(item.hidden), u8::from(is_own), 0, 0])
         .text(item.name.as_deref().unwrap_or_default())
         .text("")
 }
