@@ -1,5 +1,7 @@
 //! The editor's message, in the canvas's corner above the status bar.
 
+use std::time::Duration;
+
 use eframe::egui::{Align2, Context, Frame, Label, Rect, RichText, ScrollArea, Stroke, vec2};
 use lucide_icons::Icon;
 
@@ -14,6 +16,9 @@ const WIDTH: f32 = 460.0;
 
 /// The tallest that its text gets before it scrolls: some eight lines.
 const TALLEST: f32 = 130.0;
+
+/// How often the progress of a task is shown anew.
+const REFRESH: Duration = Duration::from_millis(200);
 
 /// Begin a text with a capital: those of the command line do not. Names of files stay.
 pub fn sentence(text: &str) -> String {
@@ -36,6 +41,17 @@ pub fn message_ui(
     let Some(message) = editor.message().cloned() else {
         return;
     };
+    let work = editor.filing().work();
+    let is_of_work = work.is_some_and(|work| work.text == message.text);
+    let read = editor.filing().reading().filter(|_| is_of_work);
+    let text = match read {
+        Some(share) if share > 0.0 => format!("{} {:.0} %", message.text, 100.0 * share),
+        _ => message.text.clone(),
+    };
+    if read.is_some() {
+        context.request_repaint_after(REFRESH);
+    }
+    let mut is_stopped = false;
     let corner = canvas.left_bottom() + vec2(6.0 * STEP, -6.0 * STEP);
     let place = (Align2::LEFT_BOTTOM, corner);
     let dismissed = widgets::overlay(context, "message", place, |ui| {
@@ -58,10 +74,11 @@ pub fn message_ui(
                         message.offers_undo,
                         message.offers_reload,
                         message.offers_choice,
+                        read.is_some(),
                     ];
                     let buttons = offers.into_iter().filter(|it| *it).count();
                     ui.set_max_width(width - (18.0 + 14.0 * buttons as f32) * STEP);
-                    let text = RichText::new(sentence(&message.text)).color(tokens.text);
+                    let text = RichText::new(sentence(&text)).color(tokens.text);
                     let lines = ScrollArea::vertical().max_height(TALLEST);
                     lines.show(ui, |ui| ui.add(Label::new(text).wrap().selectable(true)));
                 });
@@ -74,6 +91,9 @@ pub fn message_ui(
                 if message.offers_choice && ui.small_button("Choose…").clicked() {
                     commands.push(Action::ChooseImport);
                 }
+                if read.is_some() {
+                    is_stopped = ui.small_button("Stop").clicked();
+                }
                 IconButton::new(Icon::X, "Dismiss message")
                     .size(5.0 * STEP)
                     .show(ui)
@@ -83,7 +103,9 @@ pub fn message_ui(
         });
         shown.inner
     });
-    if dismissed.inner {
+    if is_stopped {
+        editor.stop_reading();
+    } else if dismissed.inner {
         editor.dismiss_message();
     }
 }

@@ -44,12 +44,12 @@ impl Editor {
         self.recovery.autosaving.wait(now)
     }
 
-    /// End: wait for the task on files, then remove the session, or write the changes that are to be kept.
+    /// End: stop what is read, wait for what is written, then remove the session, or write the changes that are to be kept.
     ///
     /// # Errors
     /// [`Refusal`] if they cannot be written.
     pub fn close(&mut self, keeps_changes: bool) -> Reply {
-        self.filing.wait();
+        self.filing.end();
         self.receive_files();
         if !keeps_changes || !self.workspace.is_settled_modified() {
             self.recovery.close();

@@ -183,6 +183,7 @@ impl FilesToRead {
         &self,
         path: &Path,
         drawings: &HashMap<&Path, Drawing>,
+        progress: &Progress,
     ) -> Result<ReadFile, Unread> {
         let choice = self.choices.get(path);
         let (mut reading, fingerprint) = match drawings.get(path) {
@@ -207,7 +208,7 @@ impl FilesToRead {
                 degree: None,
                 tolerance: choice.tolerance,
             };
-            let progress = Progress::default().limited(FLOAT_TIME);
+            let progress = progress.limited(FLOAT_TIME);
             let (made, told) = floated(&document, request, &progress)?;
             document = made;
             remarks.extend(told);

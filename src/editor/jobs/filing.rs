@@ -54,6 +54,8 @@ pub struct FileWork {
     pub(in crate::editor) revision: u64,
     /// The opening of the document at the request.
     pub(in crate::editor) opening: u64,
+    /// Whether it reads files, which changes nothing before its end.
+    pub(in crate::editor) is_reading: bool,
 }
 
 /// A request to read or write files.
@@ -370,13 +372,14 @@ impl Filing {
             text: task.text(),
             revision: workspace.revision(),
             opening: workspace.opening(),
+            is_reading: matches!(task, FileTask::Read(_)),
         };
         let is_own = |path: &Path| workspace.path() == Some(path);
         let autosaver = match &task {
             FileTask::Save { path, .. } if is_own(path) => None,
             _ => autosaver,
         };
-        let job = move |_: &_| Some(task.run(autosaver.as_ref()));
+        let job = move |progress: &Progress| Some(task.run(autosaver.as_ref(), progress));
         self.client.start(work, job, Some(patience));
     }
 
@@ -393,9 +396,26 @@ impl Filing {
         Some((work, result))
     }
 
-    /// Wait until the task is finished.
-    pub(in crate::editor) fn wait(&mut self) {
-        self.client.wait();
+    /// The share of the reading of files that is done; `None` while nothing is read.
+    pub fn reading(&self) -> Option<f64> {
+        self.work().filter(|work| work.is_reading)?;
+        self.client.progress()
+    }
+
+    /// Stop the reading of files. Returns whether there was any.
+    pub(in crate::editor) fn stop_reading(&mut self) -> bool {
+        let is_reading = self.work().is_some_and(|work| work.is_reading);
+        if is_reading {
+            self.client.forget();
+        }
+        is_reading
+    }
+
+    /// Wait until the task is finished; nobody waits for files that are read.
+    pub(in crate::editor) fn end(&mut self) {
+        if !self.stop_reading() {
+            self.client.wait();
+        }
     }
 
     /// Look whether another program has changed the document's file. [`Filing::seen_change`] tells it
@@ -462,12 +482,18 @@ impl FileTask {
         }
     }
 
-    fn run(self, autosaver: Option<&Autosaver>) -> Result<FileResult, Refusal> {
+    fn run(
+        self,
+        autosaver: Option<&Autosaver>,
+        progress: &Progress,
+    ) -> Result<FileResult, Refusal> {
         match self {
             Self::Read(files) => {
                 let read = match (files.purpose, files.paths.as_slice()) {
-                    (Purpose::Open | Purpose::Edit, [path]) => open(&files, path, autosaver),
-                    _ => read_all(&files),
+                    (Purpose::Open | Purpose::Edit, [path]) => {
+                        open(&files, path, autosaver, progress)
+                    }
+                    _ => read_all(&files, progress),
                 };
                 match read {
                     Ok(result) => Ok(result),
@@ -501,13 +527,14 @@ fn open(
     files: &FilesToRead,
     path: &Path,
     autosaver: Option<&Autosaver>,
+    progress: &Progress,
 ) -> Result<FileResult, Unread> {
     let drawings = files.drawings()?;
     let ReadFile {
         document,
         fingerprint,
         remarks,
-    } = files.read(path, &drawings)?;
+    } = files.read(path, &drawings, progress)?;
     let counted = counted_content([&document]);
     let text = format!("{counted} read from {}", shown_path(path));
     let mut text = with_lines(text, &remarks);
@@ -643,12 +670,14 @@ fn export(
 }
 
 /// Read several files, to be merged.
-fn read_all(files: &FilesToRead) -> Result<FileResult, Unread> {
+fn read_all(files: &FilesToRead, progress: &Progress) -> Result<FileResult, Unread> {
     let drawings = files.drawings()?;
-    let documents = files.paths.iter().map(|path| {
+    let count = files.paths.len() as f64;
+    let documents = files.paths.iter().enumerate().map(|(index, path)| {
+        let own = progress.part(index as f64 / count, (index + 1) as f64 / count);
         let ReadFile {
             document, remarks, ..
-        } = files.read(path, &drawings)?;
+        } = files.read(path, &drawings, &own)?;
         Ok(ReadDocument {
             document,
             name: format!("{}: ", shown_path(path)),
@@ -729,6 +758,7 @@ mod tests {
             text: "Opening slow.batten…".to_owned(),
             revision: editor.workspace().revision(),
             opening: editor.workspace().opening(),
+            is_reading: true,
         };
         editor.filing.client.start(work, job, None);
         let busy = editor.save(Path::new("other.batten"));
@@ -750,5 +780,34 @@ mod tests {
             .reply;
         assert!(reply.is_err_and(|refusal| refusal.0.contains("changed while")));
         assert_eq!(editor.document().name(curve), Some("renamed"));
+    }
+
+    #[test]
+    fn nobody_waits_for_files_that_are_read() {
+        let mut editor = Editor::new();
+        editor.run_in_background(Duration::ZERO, || {});
+        let before = editor.document().clone();
+        for closes in [false, true] {
+            // A file that is read until the test ends.
+            let (_lets_go, held) = channel::<()>();
+            let job = move |_: &_| {
+                held.recv().unwrap_or_default();
+                None
+            };
+            let work = FileWork {
+                text: "Opening slow.dxf…".to_owned(),
+                revision: editor.workspace().revision(),
+                opening: editor.workspace().opening(),
+                is_reading: true,
+            };
+            editor.filing.client.start(work, job, None);
+            assert_eq!(editor.filing().reading(), Some(0.0));
+            match closes {
+                true => drop(editor.close(false)),
+                false => editor.stop_reading(),
+            }
+            assert!(editor.filing().work().is_none());
+            assert!(editor.document().is_same(&before));
+        }
     }
 }
