@@ -21,7 +21,7 @@ use crate::geometry::{MAX_DEGREE, Progress};
 const REFERENCES: Parameter = Parameter {
     name: "references",
     label: "References",
-    help: "Which references: the chosen one, all of its group, or all; without a chosen one all",
+    help: "The chosen one, all of its group, or all; without a chosen one all. Hidden ones stay",
     kind: Kind::Choice {
         options: &[
             Choice::new("chosen", "Chosen"),
@@ -95,11 +95,12 @@ fn converted(input: &Operands, which: Which) -> Vec<(CurveId, Arc<Reference>)> {
     let chosen = input.chosen_reference();
     let group = chosen.and_then(|id| document.group(id));
     let references = document.references().filter(|(id, reference)| {
+        let is_free = reference.visible && !reference.locked;
         let is_wanted = match (which, chosen) {
-            (Which::All, _) | (_, None) => !reference.locked,
+            (Which::All, _) | (_, None) => is_free,
             (Which::Chosen, Some(chosen)) => *id == chosen,
             (Which::Group, Some(_)) => {
-                !reference.locked && group.is_some_and(|group| is_within(&reference.group, group))
+                is_free && group.is_some_and(|group| is_within(&reference.group, group))
             }
         };
         is_wanted && reference.curve.form().is_smooth()
