@@ -1,6 +1,6 @@
 //! Limits of items, memory and work, against files that insert blocks in blocks without end.
 
-use crate::io::exchange::drawing::{Item, Shape};
+use crate::io::exchange::drawing::{Drawing, Item, Shape};
 
 /// So many items any file may have: a file of five megabytes has as many without a block.
 const ITEMS: usize = 150_000;
@@ -11,6 +11,17 @@ const ITEM_BYTES: usize = 32;
 /// The most items of a file of some length, those of all inserted blocks counted: as many as it could list one by one.
 pub(in crate::io) fn most_items(length: usize) -> usize {
     ITEMS.max(length / ITEM_BYTES)
+}
+
+impl Drawing {
+    /// Begin the drawing of a file of some length, with room for its items: a list of many that grows takes its memory
+    /// twice.
+    pub(super) fn of_file(length: usize) -> Self {
+        Self {
+            items: Vec::with_capacity(length / ITEM_BYTES),
+            ..Self::default()
+        }
+    }
 }
 
 /// What reading has cost, and the limits.

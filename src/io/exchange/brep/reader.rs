@@ -43,7 +43,7 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         parts,
         drawing: Drawing {
             unit: Some(1.0),
-            ..Drawing::default()
+            ..Drawing::of_file(bytes.len())
         },
         spending: Spending::of_file(bytes.len()),
         boundaries: HashSet::new(),

@@ -23,7 +23,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     let text = text.trim_start_matches('\u{feff}');
     let mut file = File {
         text,
-        drawing: Drawing::default(),
+        drawing: Drawing::of_file(text.len()),
         remarks: Remarks::default(),
         spending: Spending::of_file(text.len()),
         is_full: false,

@@ -81,7 +81,7 @@ impl<'a, 'n> Placer<'a, 'n> {
             notes,
             drawing: Drawing {
                 is_nameless: true,
-                ..Drawing::default()
+                ..Drawing::of_file(size)
             },
             others: HashMap::new(),
             parts: HashMap::new(),

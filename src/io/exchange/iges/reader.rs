@@ -37,7 +37,7 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         delimiters: global.delimiters,
         drawing: Drawing {
             unit: global.unit,
-            ..Drawing::default()
+            ..Drawing::of_file(bytes.len())
         },
         spending: Spending::of_file(bytes.len()),
         drawn: HashSet::new(),

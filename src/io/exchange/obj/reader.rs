@@ -32,6 +32,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     }
     let text = String::from_utf8_lossy(bytes);
     let mut reader = Reader {
+        drawing: Drawing::of_file(bytes.len()),
         left: ITEMS.max(bytes.len() / ITEM_BYTES),
         ..Reader::default()
     };

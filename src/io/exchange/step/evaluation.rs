@@ -4,6 +4,9 @@ use glam::{DVec3, DVec4};
 
 use crate::io::exchange::drawing::{Conic, Nurbs, Shape};
 
+/// So often a bracket loses a third: it is then 1e-7 as wide, and distances tell no more.
+const THIRDS: usize = 40;
+
 /// A spline in homogeneous coordinates.
 pub struct Homogeneous {
     /// The degree.
@@ -67,7 +70,19 @@ impl Homogeneous {
         let last = self.points.len().checked_sub(1)?;
         let span = self.knots.partition_point(|knot| *knot <= parameter);
         let span = span.checked_sub(1)?.clamp(degree, last);
-        let mut row: Vec<DVec4> = self.points.get(span - degree..=span)?.to_vec();
+        // Most degrees need no allocation.
+        let points = self.points.get(span - degree..=span)?;
+        let (mut few, mut many) = ([DVec4::ZERO; 16], Vec::new());
+        let row = match few.get_mut(..=degree) {
+            Some(row) => {
+                row.copy_from_slice(points);
+                row
+            }
+            None => {
+                many.extend_from_slice(points);
+                &mut many[..]
+            }
+        };
         for level in 1..=degree {
             for place in (level..=degree).rev() {
                 let low = *self.knots.get(span - degree + place)?;
@@ -178,7 +193,7 @@ fn refine(
     domain: (f64, f64),
 ) -> Option<f64> {
     let (mut low, mut high) = ((at - width).max(domain.0), (at + width).min(domain.1));
-    for _ in 0..200 {
+    for _ in 0..THIRDS {
         let third = (high - low) / 3.0;
         let (left, right) = (low + third, high - third);
         if left <= low || right >= high {

@@ -23,7 +23,7 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         file,
         remarks: RefCell::new(remarks),
     };
-    let mut drawing = Drawing::default();
+    let mut drawing = Drawing::of_file(bytes.len());
     reader.representations(&mut drawing);
     if drawing.items.is_empty() {
         reader.leftovers(&mut drawing);

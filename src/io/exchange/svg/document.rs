@@ -161,7 +161,7 @@ impl<'d> Walk<'d> {
     fn new(source: &'d Source, document: &'d Document<'d>, size: usize) -> Self {
         let mut ids = HashMap::new();
         let mut sheet = Sheet::default();
-        let mut drawing = Drawing::default();
+        let mut drawing = Drawing::of_file(size);
         for node in document.descendants().filter(Node::is_element) {
             if let Some(id) = node.attribute("id") {
                 ids.entry(id).or_insert(node.id());

@@ -70,6 +70,7 @@ impl Report {
     /// Begin a report on a file of so many bytes.
     pub(super) fn new(length: usize) -> Self {
         Self {
+            drawing: Drawing::of_file(length),
             items: most_items(length),
             bytes: BYTES.max(length.saturating_mul(15)),
             ..Self::default()
