@@ -104,8 +104,9 @@ pub fn message_ui(
         shown.inner
     });
     if is_stopped {
-        editor.stop_reading();
-    } else if dismissed.inner {
+        editor.filing_mut().stop_reading();
+    }
+    if is_stopped || dismissed.inner {
         editor.dismiss_message();
     }
 }

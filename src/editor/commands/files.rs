@@ -169,19 +169,6 @@ impl Editor {
         Some(reply)
     }
 
-    /// Stop the reading of files: nothing has changed.
-    pub fn stop_reading(&mut self) {
-        if !self.filing.stop_reading() {
-            return;
-        }
-        let reply = self.tell(Ok(Note::told("Stopped: no file was read")));
-        self.filing.reply = Some(FileReply {
-            reply,
-            is_file_changed: false,
-            losses: Vec::new(),
-        });
-    }
-
     pub(in crate::editor) fn start_file_task(&mut self, task: FileTask) -> Reply {
         if let Some(work) = self.filing.work() {
             let busy = format!("{} Wait until that is done", work.text);

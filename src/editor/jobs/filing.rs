@@ -402,11 +402,16 @@ impl Filing {
         self.client.progress()
     }
 
-    /// Stop the reading of files. Returns whether there was any.
-    pub(in crate::editor) fn stop_reading(&mut self) -> bool {
+    /// Stop the reading of files, which has changed nothing. Returns whether there was any.
+    pub fn stop_reading(&mut self) -> bool {
         let is_reading = self.work().is_some_and(|work| work.is_reading);
         if is_reading {
             self.client.forget();
+            self.reply = Some(FileReply {
+                reply: Ok(Note::silent()),
+                is_file_changed: false,
+                losses: Vec::new(),
+            });
         }
         is_reading
     }
@@ -804,7 +809,7 @@ mod tests {
             assert_eq!(editor.filing().reading(), Some(0.0));
             match closes {
                 true => drop(editor.close(false)),
-                false => editor.stop_reading(),
+                false => drop(editor.filing_mut().stop_reading()),
             }
             assert!(editor.filing().work().is_none());
             assert!(editor.document().is_same(&before));
