@@ -137,6 +137,21 @@ impl Curve {
         })
     }
 
+    /// Give the curve as a whole; `None` if it is infinite.
+    pub fn whole(&self) -> Option<Result<(Kind, Shape), String>> {
+        match self {
+            Self::Ellipse { .. } => Some(self.part(0.0, TAU)),
+            Self::Bezier(_) => Some(self.part(0.0, 1.0)),
+            Self::Spline(spline) => {
+                let (from, to) = (spline.knots.first()?.0, spline.knots.last()?.0);
+                Some(self.part(from, to))
+            }
+            Self::Line { .. } | Self::Parabola { .. } | Self::Hyperbola { .. } | Self::Offset => {
+                None
+            }
+        }
+    }
+
     /// Give the part from one parameter to another.
     ///
     /// # Errors

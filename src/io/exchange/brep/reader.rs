@@ -25,18 +25,21 @@ const REMARKS: usize = 1000;
 /// Read a BREP file. The format has no units: programs take millimetres.
 ///
 /// # Errors
-/// [`Unreadable`] for binary files and where locations or curves are damaged.
+/// [`Unreadable`] for binary files, where locations are damaged, and where nothing stands before the damage.
 pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
     let mut from = Tokens::of(bytes);
     let version = version(&mut from)?;
     section(&mut from, b"Locations")?;
     let locations = topology::locations(&mut from)?;
     section(&mut from, b"Curves")?;
-    let curves = curves(&mut from)?;
-    section(&mut from, b"TShapes")?;
+    let (curves, damage) = curves(&mut from);
+    let shapes = section(&mut from, b"TShapes");
     let mut counting = from.clone();
     let count = counting.count().unwrap_or_default();
-    let (parts, damage) = topology::parts(&mut from, version);
+    let (parts, damage_of_parts) = match &shapes {
+        Ok(()) => topology::parts(&mut from, version),
+        Err(_) => (Vec::new(), None),
+    };
     let mut reader = Reader {
         locations,
         curves,
@@ -49,7 +52,20 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         boundaries: HashSet::new(),
         untold: 0,
     };
-    let root = match damage {
+    if let Err(missing) = shapes {
+        let damage = damage.unwrap_or(missing);
+        reader.draw_curves(&damage);
+        return match reader.drawing.items.is_empty() {
+            true => Err(damage),
+            false => Ok(reader.finish()),
+        };
+    }
+    if let Some(Unreadable { at, reason }) = &damage {
+        let known = reader.curves.len();
+        let told = format!("{reason}; the curves behind number {known} are missing");
+        reader.remark(at.unwrap_or_default(), &told);
+    }
+    let root = match damage_of_parts {
         None => topology::reference(&mut from, reader.parts.len(), count),
         Some(damage) => Err(damage),
     };
@@ -58,7 +74,10 @@ pub fn read(bytes: &[u8]) -> Result<Drawing, Unreadable> {
         Ok(None) => {}
         Err(damage) => reader.draw_unplaced(&damage),
     }
-    Ok(reader.finish())
+    match damage {
+        Some(damage) if reader.drawing.items.is_empty() => Err(damage),
+        _ => Ok(reader.finish()),
+    }
 }
 
 fn version(from: &mut Tokens) -> Result<u32, Unreadable> {
@@ -94,13 +113,17 @@ fn section(from: &mut Tokens, name: &[u8]) -> Result<(), Unreadable> {
     Err(from.fault(&format!("section {}", String::from_utf8_lossy(name)), None))
 }
 
-fn curves(from: &mut Tokens) -> Result<Vec<Curve>, Unreadable> {
-    let count = from.count()?;
+/// Read the curves up to the first damage.
+fn curves(from: &mut Tokens) -> (Vec<Curve>, Option<Unreadable>) {
     let mut curves = Vec::new();
-    for _ in 0..count {
-        curves.push(Curve::read(from)?);
-    }
-    Ok(curves)
+    let mut read = || {
+        for _ in 0..from.count()? {
+            curves.push(Curve::read(from)?);
+        }
+        Ok(())
+    };
+    let damage = read().err();
+    (curves, damage)
 }
 
 struct Reader {
@@ -303,6 +326,20 @@ impl Reader {
             line,
             &format!("{reason}; the edges before are kept without their places"),
         );
+    }
+
+    /// Keep the curves of a file that ends before its shapes, as far as they are not infinite.
+    fn draw_curves(&mut self, damage: &Unreadable) {
+        let (line, reason) = (damage.at.unwrap_or_default(), &damage.reason);
+        for curve in std::mem::take(&mut self.curves) {
+            match curve.whole() {
+                Some(Ok((kind, shape))) => self.add(kind, vec![shape], Space::Model, line),
+                Some(Err(reason)) => self.remark(line, &format!("a curve: {reason}; skipped")),
+                None => {}
+            }
+        }
+        let told = format!("{reason}; the curves before are kept whole, without their places");
+        self.remark(line, &told);
     }
 
     fn add(&mut self, kind: Kind, shapes: Vec<Shape>, space: Space, line: u64) {

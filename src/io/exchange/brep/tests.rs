@@ -359,6 +359,31 @@ fn cut_off_file_keeps_its_edges() {
     );
 }
 
+#[test]
+fn damage_among_the_curves_leaves_those_before_it() {
+    let spline = (
+        "7 0 0  2 4 3  0 0 0  1 1 0  2 0 0  3 1 0\n 0 3 1 1 2 3",
+        "0 2",
+    );
+    let line = ("1 0 0 0 1 0 0", "0 1");
+    let text = file(&[spline, line, spline], "Locations 0", &["+4 0", "+3 0", "+2 0"]);
+    // A letter in the last curve.
+    let last = text.rfind("3 1 0\n").expect("a point");
+    let damaged = [&text[..last], "x", &text[last + 1..]].concat();
+    let drawing = read(damaged.as_bytes()).expect("two edges");
+    assert_eq!(drawing.items.len(), 2, "{:?}", drawing.remarks);
+    let told = drawing.remarks.join("; ");
+    assert!(
+        told.contains("is expected, not \"x\"; the curves behind number 2 are missing"),
+        "{told}"
+    );
+    // A file that ends there.
+    let drawing = read(&text.as_bytes()[..last]).expect("a spline");
+    let kinds: Vec<Kind> = drawing.items.iter().map(|item| item.kind).collect();
+    assert_eq!(kinds, [Kind::Spline], "{:?}", drawing.remarks);
+    assert!(drawing.remarks[0].contains("the curves before are kept whole"));
+}
+
 /// Each compound holds the one before twice: 2⁶⁰ lines.
 #[test]
 fn exponential_compounds_are_cut_off() {
