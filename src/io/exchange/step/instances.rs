@@ -74,7 +74,7 @@ impl<'a> Instances<'a> {
             entries,
             by_id,
             work: Cell::new(256_000_000 + 16 * bytes.len() as u64),
-            memory: Cell::new((8 * bytes.len() as u64).max(96 << 20)),
+            memory: Cell::new((7 * bytes.len() as u64).max(72 << 20)),
         })
     }
 
