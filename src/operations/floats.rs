@@ -145,6 +145,7 @@ pub fn floated(
     for (index, (id, reference)) in smooth.iter().enumerate() {
         let share = |index: usize| index as f64 / smooth.len() as f64;
         let own = progress.part(share(index), share(index + 1));
+        own.set_done(0.0);
         let own = own.hurried(1.0 / (smooth.len() - index) as f64);
         let text = match floats_of(reference, request, &own.limited(TIME)) {
             Ok(floats) if floats.is_within => {
