@@ -366,7 +366,11 @@ fn damage_among_the_curves_leaves_those_before_it() {
         "0 2",
     );
     let line = ("1 0 0 0 1 0 0", "0 1");
-    let text = file(&[spline, line, spline], "Locations 0", &["+4 0", "+3 0", "+2 0"]);
+    let text = file(
+        &[spline, line, spline],
+        "Locations 0",
+        &["+4 0", "+3 0", "+2 0"],
+    );
     // A letter in the last curve.
     let last = text.rfind("3 1 0\n").expect("a point");
     let damaged = [&text[..last], "x", &text[last + 1..]].concat();
