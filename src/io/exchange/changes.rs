@@ -5,12 +5,10 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use super::drawing::{Affine, Item, Shape};
+use super::pieces::ROUNDING;
 use super::splines::spline;
 use super::writing::Manner;
 use crate::io::loss::LossReport;
-
-/// An end that is off by so little, per size, has not moved.
-const ROUNDING: f64 = 1e-9;
 
 /// Writes changes into the bytes of a file, or says why that is not possible.
 type Rewrite = fn(&[u8], &Changes, &mut LossReport) -> Result<Vec<u8>, String>;

@@ -19,7 +19,7 @@ pub(super) struct Pieces {
 
 /// How far the end of a closed path may be off its start, per size: relative coordinates add up their
 /// rounding.
-const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// The piece that may still grow.
 enum Run {

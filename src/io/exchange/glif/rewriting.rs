@@ -1,6 +1,8 @@
 //! Writes changed contours into the text of a glyph. Where a contour keeps the kinds of its points, their coordinates
 //! alone change; everything else stays as it was, to the byte.
 
+use std::collections::HashMap;
+
 use glam::DVec3;
 use roxmltree::{Document, Node};
 
@@ -65,35 +67,69 @@ fn contour(text: &str, node: Node, new: &[Contour], edits: &mut TextEdits) -> Op
     }
     let points = || node.children().filter(|it| it.has_tag_name("point"));
     let (first, last) = (points().next()?, points().next_back()?);
-    let kept = |at: DVec3, kind: Option<&str>| {
-        let own = points().find(|it| self::kind(it) == kind && point_of(it) == Some(at))?;
-        text.get(own.range())
-    };
-    let has_more = |node: &Node| {
-        let mut names = node.attributes().map(|it| it.name().to_owned());
-        names.any(|name| !["x", "y", "type"].contains(&name.as_str()))
-    };
-    let is_kept = |old: &Node| {
-        let (at, kind) = (point_of(old), self::kind(old));
-        let mut new = new.iter().flat_map(|contour| &contour.points);
-        new.any(|(point, its)| Some(*point) == at && *its == kind)
-    };
-    let are_kept = points().filter(has_more).all(|it| is_kept(&it));
+    let mut old = OldPoints::of(points(), text);
     let before = text.get(..first.range().start)?;
     let indent = before.get(before.trim_end_matches([' ', '\t']).len()..)?;
     let mut written = String::new();
     let [first_new, others @ ..] = new else {
         return None;
     };
-    first_new.write_points(&mut written, indent, kept);
+    first_new.write_points(&mut written, indent, |at, kind| old.take(at, kind));
     let inside = written.trim().to_owned();
     edits.replace(first.range().start..last.range().end, inside);
     let mut written = String::new();
-    others.iter().for_each(|it| it.write(&mut written));
+    for other in others {
+        other.write(&mut written, |at, kind| old.take(at, kind));
+    }
     if !written.is_empty() {
         edits.replace(range.end..range.end, format!("\n{}", written.trim_end()));
     }
-    Some(are_kept)
+    Some(!old.have_more())
+}
+
+/// The points of a contour that are not written yet, by coordinates and type. A contour may have a million.
+struct OldPoints<'t> {
+    texts: HashMap<([u64; 2], Option<&'t str>), Vec<OldPoint<'t>>>,
+}
+
+/// A point as it stands in the file.
+struct OldPoint<'t> {
+    text: &'t str,
+    /// Whether it has more than coordinates and a type, as a name.
+    has_more: bool,
+}
+
+impl<'t> OldPoints<'t> {
+    fn of<'n: 't>(nodes: impl Iterator<Item = Node<'t, 'n>>, text: &'t str) -> Self {
+        let mut texts: HashMap<_, Vec<OldPoint>> = HashMap::new();
+        for node in nodes {
+            let mut names = node.attributes().map(|it| it.name());
+            let has_more = names.any(|name| !["x", "y", "type"].contains(&name));
+            if let (Some(at), Some(text)) = (point_of(&node), text.get(node.range())) {
+                let own = texts.entry((bits(at), kind(&node))).or_default();
+                own.push(OldPoint { text, has_more });
+            }
+        }
+        // The first one goes first.
+        texts.values_mut().for_each(|own| own.reverse());
+        Self { texts }
+    }
+
+    /// Take a point that is to be written.
+    fn take(&mut self, at: DVec3, kind: Option<&'static str>) -> Option<&'t str> {
+        let own = self.texts.get_mut(&(bits(at), kind))?;
+        own.pop().map(|point| point.text)
+    }
+
+    /// Whether points with more than coordinates and a type are left.
+    fn have_more(&self) -> bool {
+        self.texts.values().flatten().any(|point| point.has_more)
+    }
+}
+
+/// The coordinates to the bit; 0 has one sign.
+fn bits(at: DVec3) -> [u64; 2] {
+    [at.x, at.y].map(|it| (it + 0.0).to_bits())
 }
 
 /// The type of a point on the curve.
@@ -144,7 +180,7 @@ fn add(
     let mut written = String::new();
     for item in &changes.added {
         for contour in contours(&item.shapes)? {
-            contour.write(&mut written);
+            contour.write(&mut written, |_, _| None);
         }
     }
     if written.is_empty() {

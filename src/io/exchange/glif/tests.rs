@@ -344,4 +344,6 @@ fn a_piece_that_is_drawn_anew_leaves_its_contour_closed_and_other_points_as_they
     let (text, losses) = rewritten(90.0);
     assert!(text.contains("type=\"move\""));
     assert_eq!(losses, [Loss::PointAttributes, Loss::Opened]);
+    // A point beside the gap keeps its name, also in a contour of its own, and none stands twice.
+    assert_eq!(text.matches("name=\"foot\"").count(), 1, "{text}");
 }

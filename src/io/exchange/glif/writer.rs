@@ -16,7 +16,7 @@ pub(super) fn write(drawing: &Drawing, name: &str) -> Result<Vec<u8>, Unreadable
     );
     for item in &drawing.items {
         for contour in contours(&item.shapes).map_err(|what| refusal(drawing, item, &what))? {
-            contour.write(&mut text);
+            contour.write(&mut text, |_, _| None);
         }
     }
     text.push_str("  </outline>\n</glyph>\n");
@@ -62,10 +62,14 @@ impl Contour {
         }
     }
 
-    /// Write the contour with its tags.
-    pub(super) fn write(&self, text: &mut String) {
+    /// Write the contour with its tags; `kept` gives points that stand in the file already.
+    pub(super) fn write<'t>(
+        &self,
+        text: &mut String,
+        kept: impl FnMut(DVec3, Option<&'static str>) -> Option<&'t str>,
+    ) {
         text.push_str("    <contour>\n");
-        self.write_points(text, "      ", |_, _| None);
+        self.write_points(text, "      ", kept);
         text.push_str("    </contour>\n");
     }
 
@@ -79,7 +83,7 @@ impl Contour {
         &self,
         text: &mut String,
         indent: &str,
-        kept: impl Fn(DVec3, Option<&str>) -> Option<&'t str>,
+        mut kept: impl FnMut(DVec3, Option<&'static str>) -> Option<&'t str>,
     ) {
         for (point, kind) in &self.points {
             if let Some(own) = kept(*point, *kind) {
