@@ -44,7 +44,8 @@ impl Editor {
         self.recovery.autosaving.wait(now)
     }
 
-    /// End: stop what is read, wait for what is written, then remove the session, or write the changes that are to be kept.
+    /// End: stop what is read, wait for what is written, then remove the session, or write the changes that are to be
+    /// kept.
     ///
     /// # Errors
     /// [`Refusal`] if they cannot be written.

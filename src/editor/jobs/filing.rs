@@ -739,6 +739,16 @@ mod tests {
     use crate::document::Edit;
     use crate::editor::Editor;
 
+    /// The task to read a file.
+    fn reading(editor: &Editor, name: &str) -> FileWork {
+        FileWork {
+            text: format!("Opening {name}…"),
+            revision: editor.workspace().revision(),
+            opening: editor.workspace().opening(),
+            is_reading: true,
+        }
+    }
+
     /// Longer than any job here takes.
     const LONG: Duration = Duration::from_secs(60);
 
@@ -759,12 +769,7 @@ mod tests {
                 original: None,
             }))
         };
-        let work = FileWork {
-            text: "Opening slow.batten…".to_owned(),
-            revision: editor.workspace().revision(),
-            opening: editor.workspace().opening(),
-            is_reading: true,
-        };
+        let work = reading(&editor, "slow.batten");
         editor.filing.client.start(work, job, None);
         let busy = editor.save(Path::new("other.batten"));
         let busy = busy.expect_err("one task at a time").to_string();
@@ -799,12 +804,7 @@ mod tests {
                 held.recv().unwrap_or_default();
                 None
             };
-            let work = FileWork {
-                text: "Opening slow.dxf…".to_owned(),
-                revision: editor.workspace().revision(),
-                opening: editor.workspace().opening(),
-                is_reading: true,
-            };
+            let work = reading(&editor, "slow.dxf");
             editor.filing.client.start(work, job, None);
             assert_eq!(editor.filing().reading(), Some(0.0));
             match closes {
