@@ -118,7 +118,10 @@ impl DrawnNurbs {
     /// than the degree: its pieces meet there.
     fn joined(&self) -> Cow<'_, Self> {
         let (n, knots, points) = (self.degree, &self.knots, &self.points);
-        let Some(last) = knots.get(points.len()).filter(|_| n > 0) else {
+        let Some(last) = knots
+            .get(points.len())
+            .filter(|_| (1..points.len()).contains(&n))
+        else {
             return Cow::Borrowed(self);
         };
         let size = points.iter().map(|it| it.abs().max_element());

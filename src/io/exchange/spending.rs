@@ -8,6 +8,9 @@ const ITEMS: usize = 150_000;
 /// The bytes of a file that a further item takes.
 const ITEM_BYTES: usize = 32;
 
+/// There is room for so many items at most before any is read.
+const ROOM: usize = 500_000;
+
 /// The most items of a file of some length, those of all inserted blocks counted: as many as it could list one by one.
 pub(in crate::io) fn most_items(length: usize) -> usize {
     ITEMS.max(length / ITEM_BYTES)
@@ -18,7 +21,7 @@ impl Drawing {
     /// twice.
     pub(super) fn of_file(length: usize) -> Self {
         Self {
-            items: Vec::with_capacity(length / ITEM_BYTES),
+            items: Vec::with_capacity(ROOM.min(length / ITEM_BYTES)),
             ..Self::default()
         }
     }

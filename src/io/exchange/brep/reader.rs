@@ -16,7 +16,7 @@ use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Shape, Space, Un
 /// How deep compounds may nest.
 const NESTING: usize = 64;
 
-/// What the visit of a shape costs, in bytes of parameters.
+/// What the visit of a shape costs, in bytes of work.
 const VISIT: u64 = 64;
 
 /// Remarks kept: a damaged file would otherwise give one for each of its edges.

@@ -82,9 +82,9 @@ impl<'d> File<'d> {
             true => (line + error.line() as u64 - 1, reason_of(&error)),
             false => (line, String::new()),
         });
-        let result = curve.and_then(|curve| {
+        let result = curve.and_then(|mut curve| {
             let name = curve.name.as_deref().map(short);
-            let group = curve.group.as_ref().map_or(&[][..], |it| &it.0).to_vec();
+            let group = curve.group.take().map(|path| path.0).unwrap_or_default();
             let spline = curve.spline().map_err(|reason| (line, reason))?;
             Ok((name, group, spline))
         });
