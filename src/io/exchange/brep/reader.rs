@@ -140,12 +140,12 @@ struct Reader {
 impl Reader {
     fn draw(&mut self, shape: Reference, outer: &Affine, space: Space, depth: usize) {
         let (Some(part), Some(own)) = (
-            self.parts.get(shape.part),
-            self.locations.get(shape.location),
+            self.parts.get(shape.part()),
+            self.locations.get(shape.location()),
         ) else {
             self.drawing.remarks.push(format!(
                 "location {} is missing; a shape is skipped",
-                shape.location
+                shape.location()
             ));
             return;
         };
@@ -167,7 +167,7 @@ impl Reader {
                     );
                 }
             }
-            Content::Edge(_) => self.draw_edge(shape.part, &place, space, line),
+            Content::Edge(_) => self.draw_edge(shape.part(), &place, space, line),
             Content::Wire if space == Space::Model => self.draw_wire(&children, &place, line),
             _ if depth >= NESTING => self.remark(
                 line,
@@ -202,10 +202,10 @@ impl Reader {
             if self.spending.is_over() {
                 return;
             }
-            let Some(own) = self.locations.get(child.location) else {
+            let Some(own) = self.locations.get(child.location()) else {
                 continue;
             };
-            match self.edge(child.part, &outer.of(own)) {
+            match self.edge(child.part(), &outer.of(own)) {
                 Ok(Some((kind, shape))) => {
                     let shape = if child.is_reversed {
                         shape.reversed()
@@ -284,11 +284,11 @@ impl Reader {
             let Some(Part {
                 content: Content::Vertex(point),
                 ..
-            }) = self.parts.get(child.part)
+            }) = self.parts.get(child.part())
             else {
                 continue;
             };
-            let Some(place) = self.locations.get(child.location) else {
+            let Some(place) = self.locations.get(child.location()) else {
                 continue;
             };
             let (point, end) = (

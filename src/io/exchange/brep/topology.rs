@@ -37,13 +37,24 @@ pub(super) struct Edge {
     pub is_degenerate: bool,
 }
 
-/// A shape in another one.
+/// A shape in another one. A file can be little more than these: their numbers are small.
 #[derive(Clone, Copy)]
 pub(super) struct Reference {
-    /// The index in the file's order, from 0.
-    pub part: usize,
-    pub location: usize,
+    part: u32,
+    location: u32,
     pub is_reversed: bool,
+}
+
+impl Reference {
+    /// The index of the shape in the file's order, from 0.
+    pub(super) fn part(self) -> usize {
+        self.part as usize
+    }
+
+    /// The number of its place.
+    pub(super) fn location(self) -> usize {
+        self.location as usize
+    }
 }
 
 /// Read the locations; number 0 is none.
@@ -143,10 +154,11 @@ pub(super) fn reference(
     let part = number
         .and_then(|number| count.checked_sub(number))
         .filter(|part| *part < below);
+    let part = part.and_then(|part| u32::try_from(part).ok());
     let part = part
         .filter(|_| b"+-ie".contains(sign))
         .ok_or_else(|| fault(from))?;
-    let location = usize::try_from(from.integer()?).map_err(|_| fault(from))?;
+    let location = u32::try_from(from.integer()?).map_err(|_| fault(from))?;
     Ok(Some(Reference {
         part,
         location,
