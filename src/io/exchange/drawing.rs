@@ -69,11 +69,11 @@ pub enum Kind {
     Spline,
     /// A Bézier curve.
     Bezier,
-    /// An arc of a circle or of an ellipse that does not close.
+    /// An arc of a circle.
     Arc,
     /// A circle.
     Circle,
-    /// A whole ellipse; in DXF also an arc of one.
+    /// An ellipse, whole or an arc of one.
     Ellipse,
     /// A straight segment.
     Line,

@@ -341,8 +341,8 @@ fn shape(curve: &ReferenceCurve) -> Option<(Kind, Shape)> {
                 to,
             };
             let kind = match conic.is_whole() {
-                true if a == b => Kind::Circle,
-                true => Kind::Ellipse,
+                _ if a != b => Kind::Ellipse,
+                true => Kind::Circle,
                 false => Kind::Arc,
             };
             Some((kind, Shape::Conic(conic)))

@@ -190,9 +190,9 @@ impl Curve {
                     to,
                 };
                 let kind = match (is_whole, is_circle) {
-                    (false, _) => Kind::Arc,
+                    (_, false) => Kind::Ellipse,
                     (true, true) => Kind::Circle,
-                    (true, false) => Kind::Ellipse,
+                    (false, true) => Kind::Arc,
                 };
                 Ok((kind, Shape::Conic(conic)))
             }

@@ -240,7 +240,7 @@ fn samples() -> Drawing {
         (Kind::Polyline, vec![chain(5, false)]),
         (Kind::Polyline, vec![chain(5, true)]),
         (Kind::Point, vec![Shape::Point(corners[3])]),
-        (Kind::Arc, vec![Shape::Conic(conic)]),
+        (Kind::Ellipse, vec![Shape::Conic(conic)]),
         (
             Kind::Polycurve,
             vec![Shape::Nurbs(rational), chain(3, false)],

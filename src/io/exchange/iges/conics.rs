@@ -75,12 +75,7 @@ impl ConicArc {
         match squares.map(|square| square > 0.0) {
             [true, true] => {
                 let conic = self.ellipse(&axes, middle, squares.map(f64::sqrt));
-                let kind = if is_whole(&conic) {
-                    Kind::Ellipse
-                } else {
-                    Kind::Arc
-                };
-                Ok((kind, Shape::Conic(conic)))
+                Ok((Kind::Ellipse, Shape::Conic(conic)))
             }
             [false, false] => Err("the conic has no real points".to_owned()),
             [is_first, _] => {

@@ -347,17 +347,15 @@ impl<'a> Curves<'a, '_> {
     }
 }
 
-/// Name the trimmed curve after its basis: an arc where a circle or ellipse does not close.
+/// Name the trimmed curve after its basis: an arc where a circle does not close.
 fn kind_of(basis: Kind, shapes: &[Shape]) -> Kind {
-    match (basis, shapes) {
-        (Kind::Circle | Kind::Ellipse, [Shape::Conic(conic)])
-            if conic.to - conic.from < TAU * (1.0 - 1e-12) =>
-        {
-            Kind::Arc
-        }
-        (Kind::Arc, [Shape::Conic(conic)]) if conic.to - conic.from >= TAU * (1.0 - 1e-12) => {
-            Kind::Ellipse
-        }
+    let [Shape::Conic(conic)] = shapes else {
+        return basis;
+    };
+    let is_whole = conic.to - conic.from >= TAU * (1.0 - 1e-12);
+    match (basis, is_whole) {
+        (Kind::Circle, false) => Kind::Arc,
+        (Kind::Arc, true) => Kind::Circle,
         _ => basis,
     }
 }

@@ -107,7 +107,7 @@ fn sorts() -> Vec<Item> {
         item(Kind::Ellipse, conic(x, 2.0 * y, 0.0, TAU)),
         item(Kind::Arc, conic(x, y, -0.7, 1.1)),
         item(Kind::Arc, conic(x, y, 5.0, 7.0)),
-        item(Kind::Arc, conic(x, 0.5 * y, 0.0, 3.0)),
+        item(Kind::Ellipse, conic(x, 0.5 * y, 0.0, 3.0)),
         item(Kind::Line, line(&[b, c], false)),
         item(Kind::Polyline, line(&[a, b, c], false)),
         item(Kind::Polyline, line(&[a, b, c], true)),

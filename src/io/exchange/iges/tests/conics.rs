@@ -33,7 +33,7 @@ fn moved_ellipse_arc_runs_anticlockwise() {
     };
     assert_eq!(
         (drawing.items[0].kind, it.from, it.to),
-        (Kind::Arc, PI, TAU)
+        (Kind::Ellipse, PI, TAU)
     );
     assert!((point_at(only_shape(&drawing), 0.5) - DVec3::new(1.0, 0.0, 0.0)).length() < 1e-15);
 }
