@@ -237,9 +237,12 @@ impl Format {
             .extend(pictures.map(|name| (name, Loss::Picture)));
         losses.add_matches(document, |_| true);
         losses.add_document(document);
-        if self.file_unit == FileUnit::Always && document.unit().is_none() {
-            losses.of_document.push(DocumentLoss::Unit);
-        }
+        let unit = match (self.file_unit, document.unit()) {
+            (FileUnit::Always, None) => Some(DocumentLoss::NoUnit),
+            (FileUnit::None, Some(_)) => Some(DocumentLoss::Unit),
+            _ => None,
+        };
+        losses.of_document.extend(unit);
         Ok(Export { bytes, losses })
     }
 }

@@ -39,8 +39,10 @@ pub enum DocumentLoss {
     UnknownKeys,
     /// The guides.
     Guides,
-    /// That there is no unit.
+    /// The unit: the format has none.
     Unit,
+    /// That there is no unit: the format always has one.
+    NoUnit,
 }
 
 impl DocumentLoss {
@@ -51,6 +53,11 @@ impl DocumentLoss {
             }
             Self::Guides => format!("the guides aren't stored in the {format}"),
             Self::Unit => {
+                format!(
+                    "the unit isn't stored in the {format}, which has none: its numbers are those of the document"
+                )
+            }
+            Self::NoUnit => {
                 "the document has no unit: its numbers are written as millimetres".to_owned()
             }
         }
