@@ -13,7 +13,8 @@ use crate::document::Reference;
 use crate::geometry::ParametricCurve;
 use crate::geometry::references::{Placement, ReferenceForm};
 
-/// The samples of a reference, about: fewer than of a curve, since each may take an integral.
+/// The samples of a reference, about: fewer than of a curve, since each may take an integral. Straight lines have the
+/// fewest that there are.
 const SAMPLES: usize = 1024;
 
 /// Hold the samples of a reference, its plots, and its features as far as samples tell them.
@@ -22,7 +23,8 @@ pub struct ReferenceAnalysis {
     reference: Arc<Reference>,
     /// The samples of the curve where its formula puts it.
     unplaced: Arc<CurveSamples>,
-    samples: CurveSamples,
+    /// The samples where it is placed; the same where that is there.
+    samples: Arc<CurveSamples>,
     levels: LevelSeries,
     features: OnceCell<Vec<SampledFeature>>,
     /// The points of a list, where they are placed.
@@ -33,7 +35,9 @@ impl ReferenceAnalysis {
     /// Analyse a reference.
     pub fn new(reference: Arc<Reference>) -> Self {
         let unplaced = reference.curve.clone().placed(Placement::default());
-        let mut samples = CurveSamples::with_about(SAMPLES, &unplaced);
+        let is_straight = matches!(reference.curve.form(), ReferenceForm::Points(_));
+        let count = if is_straight { 0 } else { SAMPLES };
+        let mut samples = CurveSamples::with_about(count, &unplaced);
         if reference.curve.form().may_leap() {
             samples.mark_leaps(&unplaced);
         }
@@ -44,8 +48,13 @@ impl ReferenceAnalysis {
     fn of_samples(reference: Arc<Reference>, unplaced: Arc<CurveSamples>) -> Self {
         let mut points = VertexChain::default();
         points.update(&reference.points().unwrap_or_default(), false);
+        let placement = reference.curve.placement();
+        let samples = match *placement == Placement::default() {
+            true => unplaced.clone(),
+            false => Arc::new(unplaced.placed(placement, reference.curve.is_planar())),
+        };
         Self {
-            samples: unplaced.placed(reference.curve.placement(), reference.curve.is_planar()),
+            samples,
             unplaced,
             levels: LevelSeries::default(),
             features: OnceCell::new(),
