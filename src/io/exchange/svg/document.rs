@@ -38,7 +38,7 @@ const OF_SMALL: usize = 64 << 20;
 const OF_BYTE: usize = 20;
 
 /// The memory for a point of a path, with what it takes while a long path is read.
-const OF_POINT: usize = 50;
+const OF_POINT: usize = 56;
 
 /// Where an item of a drawing comes from.
 #[derive(Clone)]
