@@ -132,7 +132,7 @@ fn drawing(
                     polyline(&mut entities, &points, closed, &layer, &mut reach);
                 }
                 Shape::Nurbs(nurbs) => spline(&mut entities, &nurbs, &layer, &mut reach),
-                Shape::Conic(conic) => ellipse(&mut entities, &conic, &layer, &mut reach),
+                Shape::Conic(it) => conic(&mut entities, &it, &layer, &mut reach),
                 Shape::Point(point) => single_point(&mut entities, point, &layer, &mut reach),
             }
         }
@@ -247,8 +247,48 @@ fn spline(writer: &mut Writer, nurbs: &Nurbs, layer: &str, reach: &mut Reach) {
     }
 }
 
+/// An ellipse or an arc of one; in the plane a circle or an arc of one where it is round.
+fn conic(writer: &mut Writer, conic: &Conic, layer: &str, reach: &mut Reach) {
+    let Conic { centre, x, y, .. } = *conic;
+    reach.add(&[
+        centre - x - y,
+        centre + x + y,
+        centre - x + y,
+        centre + x - y,
+    ]);
+    let is_flat = x.z == 0.0 && y.z == 0.0;
+    let turned = DVec3::new(-x.y, x.x, 0.0);
+    if is_flat && (turned == y || turned == -y) {
+        circle(writer, conic, layer);
+    } else {
+        ellipse(writer, conic, layer);
+    }
+}
+
+/// A circle or an arc of one, anticlockwise about z.
+fn circle(writer: &mut Writer, conic: &Conic, layer: &str) {
+    let Conic { centre, x, y, .. } = *conic;
+    let is_clockwise = x.cross(y).z < 0.0;
+    let [from, to] = match is_clockwise {
+        true => [-conic.to, -conic.from],
+        false => [conic.from, conic.to],
+    };
+    let is_whole = conic.is_whole();
+    writer.entity(if is_whole { "CIRCLE" } else { "ARC" }, layer);
+    writer.text(100, "AcDbCircle");
+    writer.point(10, centre);
+    writer.number(40, x.length());
+    if !is_whole {
+        let start = x.y.atan2(x.x);
+        writer.text(100, "AcDbArc");
+        for (code, angle) in [(50, from), (51, to)] {
+            writer.number(code, (start + angle).to_degrees().rem_euclid(360.0));
+        }
+    }
+}
+
 /// An arc of an ellipse from its longer half-axis, anticlockwise about the normal of its plane: about z in the plane.
-fn ellipse(writer: &mut Writer, conic: &Conic, layer: &str, reach: &mut Reach) {
+fn ellipse(writer: &mut Writer, conic: &Conic, layer: &str) {
     let Conic {
         centre,
         mut x,
@@ -263,12 +303,6 @@ fn ellipse(writer: &mut Writer, conic: &Conic, layer: &str, reach: &mut Reach) {
     if y.length() > x.length() {
         (x, y, from, to) = (y, -x, from - FRAC_PI_2, to - FRAC_PI_2);
     }
-    reach.add(&[
-        centre - x - y,
-        centre + x + y,
-        centre - x + y,
-        centre + x - y,
-    ]);
     writer.entity("ELLIPSE", layer);
     writer.text(100, "AcDbEllipse");
     writer.point(10, centre);

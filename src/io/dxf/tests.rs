@@ -2,6 +2,7 @@
 //! ezdxf by tests/exchange/check_dxf.py.
 
 use std::collections::HashSet;
+use std::f64::consts::TAU;
 
 use glam::DVec3;
 
@@ -10,6 +11,7 @@ use crate::document::Colour;
 use crate::geometry::FloatPolygon;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
+use crate::io::exchange::drawing::Kind;
 use crate::io::loss::Export;
 
 type Pair = (i32, String);
@@ -379,4 +381,54 @@ fn references_of_a_group_share_its_layer_with_curves() {
         told.contains("“own” and “line”: the name of a curve in a group isn't stored"),
         "{told}"
     );
+}
+
+#[test]
+fn round_ellipses_of_the_plane_are_circles_and_arcs() {
+    let turned = DVec3::new(0.6, 0.8, 0.0);
+    let conic = |x: DVec3, y: DVec3, to: f64| Conic {
+        centre: DVec3::new(3.0, -1.0, 0.5),
+        x,
+        y,
+        from: 0.25,
+        to,
+    };
+    let [x, y] = [2.0 * DVec3::X, 2.0 * DVec3::Y];
+    let cases = [
+        (Kind::Circle, conic(x, y, 0.25 + TAU)),
+        (Kind::Arc, conic(x, y, 3.0)),
+        (Kind::Arc, conic(x, -y, 6.0)),
+        (Kind::Arc, conic(turned, DVec3::new(-0.8, 0.6, 0.0), 5.0)),
+        (Kind::Ellipse, conic(x, 2.0 * DVec3::Z, 3.0)),
+        (Kind::Ellipse, conic(x, DVec3::Y, 3.0)),
+    ];
+    for (kind, conic) in cases {
+        let mut writer = Writer::new();
+        super::conic(&mut writer, &conic, "0", &mut Reach::default());
+        let entities = writer.into_text();
+        let text = format!("0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n");
+        let drawing = exchange::dxf::read(text.as_bytes()).expect("a drawing");
+        let [item] = &drawing.items[..] else {
+            panic!("{kind:?}: {:?}", drawing.items);
+        };
+        assert_eq!(item.kind, kind);
+        let [Shape::Conic(found)] = &item.shapes[..] else {
+            panic!("{:?}", item.shapes);
+        };
+        assert!((found.to - found.from - (conic.to - conic.from)).abs() < 1e-14);
+        let at = |it: &Conic, u: f64| it.centre + u.cos() * it.x + u.sin() * it.y;
+        let ends = |it: &Conic| [it.from, it.to].map(|u| at(it, u));
+        let [mut expected, found] = [ends(&conic), ends(found)];
+        // An arc runs anticlockwise; a whole circle has no ends.
+        if conic.x.cross(conic.y).z < 0.0 {
+            expected.reverse();
+        }
+        for (expected, found) in expected.iter().zip(found) {
+            let distance = expected.distance(found);
+            assert!(
+                kind == Kind::Circle || distance < 1e-14,
+                "{kind:?} {distance}"
+            );
+        }
+    }
 }
