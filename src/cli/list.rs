@@ -59,6 +59,8 @@ struct ListedItem {
     group: String,
     name: Option<String>,
     block: Option<String>,
+    /// Whether the file hides it, or its layer.
+    hidden: bool,
     /// Whether it becomes a float polygon exactly.
     curve: bool,
 }
@@ -72,6 +74,7 @@ struct ListedRow {
     degrees: Vec<usize>,
     rational: usize,
     periodic: usize,
+    hidden: usize,
     /// The corners of the box around them, in the unit of the file.
     bounds: Option<[[f64; 3]; 2]>,
 }
@@ -101,7 +104,8 @@ pub(super) fn run(
     };
     let found = drawing.found();
     let rows = found.rows.iter().filter(|row| is_listed(row.key.space));
-    let items = drawing.items.iter().filter(|item| is_listed(item.space));
+    let items = drawing.items.iter().zip(&found.curves);
+    let items = items.filter(|(item, _)| is_listed(item.space));
     let others = drawing.other.iter().map(|other| ListedOther {
         kind: other.kind.clone(),
         count: other.count,
@@ -111,7 +115,7 @@ pub(super) fn run(
         format: format.name,
         unit: drawing.unit.map(unit_name),
         rows: OneByOne::new(rows.map(ListedRow::of)),
-        items: OneByOne::new(items.map(ListedItem::of)),
+        items: OneByOne::new(items.map(|(item, is_curve)| ListedItem::of(item, *is_curve))),
         other: others.collect(),
         remarks: &found.remarks,
     })
@@ -126,24 +130,18 @@ impl ListedRow {
             degrees: row.degrees.clone(),
             rational: row.rational,
             periodic: row.periodic,
+            hidden: row.hidden,
             bounds: row.bounds.map(|corners| corners.map(|it| it.to_array())),
         }
     }
 }
 
 impl ListedItem {
-    fn of(item: &Item) -> Self {
+    fn of(item: &Item, is_curve: bool) -> Self {
         let splines = || item.shapes.iter().filter_map(Shape::nurbs);
         let is_conic = |shape: &Shape| matches!(shape, Shape::Conic(_));
         let points: usize = splines().map(|nurbs| nurbs.points.len()).sum();
         let vertices: usize = item.shapes.iter().filter_map(Shape::corners).sum();
-        let is_curve = match &item.shapes[..] {
-            [Shape::Nurbs(nurbs)] => {
-                let checked = nurbs.checked().ok();
-                checked.is_some_and(|nurbs| nurbs.has_float_polygon())
-            }
-            _ => false,
-        };
         Self {
             kind: item.kind.name(),
             degree: splines().map(|nurbs| nurbs.degree).max(),
@@ -155,6 +153,7 @@ impl ListedItem {
             group: item.group.join("/"),
             name: item.name.clone(),
             block: item.block.as_deref().map(str::to_owned),
+            hidden: item.hidden,
             curve: is_curve,
         }
     }

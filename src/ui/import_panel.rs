@@ -114,7 +114,7 @@ impl ImportPanel {
                 }
             });
         });
-        self.sum_ui(ui, files);
+        self.sum_ui(ui, files, receiving);
         self.unit_ui(ui, files, receiving);
         self.floats_ui(ui, files);
         let is_empty = files
@@ -139,7 +139,7 @@ impl ImportPanel {
     }
 
     /// What is taken in all, with buttons for all and for nothing.
-    fn sum_ui(&mut self, ui: &mut Ui, files: &[FoundFile]) {
+    fn sum_ui(&mut self, ui: &mut Ui, files: &[FoundFile], receiving: Option<LengthUnit>) {
         let (mut curves, mut references, mut left_out) = (0, 0, 0);
         for (file, choice) in files.iter().zip(&self.choices) {
             for row in file.found.taken(choice) {
@@ -155,7 +155,10 @@ impl ImportPanel {
             told.push_str(&format!(" ({points} left out)"));
         }
         let size = match files {
-            [file] => self.choices.first().and_then(|it| file.found.size(it)),
+            [file] => {
+                let choice = self.choices.first();
+                choice.and_then(|choice| file.found.size(choice, receiving))
+            }
             _ => None,
         };
         let told = match size {
@@ -342,7 +345,12 @@ fn row_ui(ui: &mut Ui, row: &FoundRow, choice: &mut ImportChoice) {
     let square = Rect::from_min_size(rect.min, vec2(ROW, ROW));
     widgets::icon(ui, square, mark, colour);
     let degrees: Vec<String> = row.degrees.iter().map(ToString::to_string).collect();
-    let forms = [(row.rational, "rational"), (row.periodic, "periodic")];
+    let forms = [
+        (row.rational, "rational"),
+        (row.periodic, "periodic"),
+        (row.hidden, "hidden"),
+        (row.inserted, "in blocks"),
+    ];
     let forms = forms.iter().filter(|(count, _)| *count > 0);
     let forms: Vec<String> = forms
         .map(|(count, word)| format!("{count} {word}"))

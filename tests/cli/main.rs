@@ -291,7 +291,7 @@ fn layers_and_kinds_of_a_drawing_are_chosen() {
     let (list, _) = folder.done(&["list", "a.dxf"]);
     let list: Value = serde_json::from_str(&list).expect("JSON");
     let row = json!({"layer": "Deck", "kind": "line", "count": 2, "degrees": [], "rational": 0,
-        "periodic": 0, "bounds": [[0.0, 0.0, 0.0], [6.0, 8.0, 0.0]]});
+        "periodic": 0, "hidden": 0, "bounds": [[0.0, 0.0, 0.0], [6.0, 8.0, 0.0]]});
     assert_eq!(list["rows"][0], row);
     assert_eq!(
         list["other"],

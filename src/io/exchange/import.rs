@@ -44,6 +44,10 @@ pub struct FoundRow {
     pub rational: usize,
     /// How many are splines that the file calls periodic.
     pub periodic: usize,
+    /// How many items the file hides.
+    pub hidden: usize,
+    /// How many items come from blocks or symbols.
+    pub inserted: usize,
     /// How many of their pieces are curves: a float polygon holds them.
     pub curves: usize,
     /// How many of their pieces are references.
@@ -67,6 +71,8 @@ pub struct Found {
     pub is_unitless: bool,
     /// The items by layer and kind: free ones first, then layouts for printing, then edges.
     pub rows: Vec<FoundRow>,
+    /// For each item of the drawing whether it becomes a float polygon exactly.
+    pub curves: Vec<bool>,
     /// What is not understood.
     pub other: Vec<Other>,
     /// What is not wrong but better told.
@@ -115,6 +121,8 @@ impl FoundRow {
             degrees: Vec::new(),
             rational: 0,
             periodic: 0,
+            hidden: 0,
+            inserted: 0,
             curves: 0,
             references: 0,
             smooth: 0,
@@ -124,9 +132,10 @@ impl FoundRow {
         }
     }
 
-    /// Count an item; tell why it is no curve, if it is none.
-    fn add(&mut self, item: &Item, remarks: &mut Remarks) {
+    /// Count an item; tell why it is no curve, if it is none. Return whether it becomes a float polygon exactly.
+    fn add(&mut self, item: &Item, remarks: &mut Remarks) -> bool {
         self.count += 1;
+        let known = self.curves;
         let splines = || item.shapes.iter().filter_map(Shape::nurbs);
         for nurbs in splines() {
             if let Err(place) = self.degrees.binary_search(&nurbs.degree) {
@@ -135,6 +144,8 @@ impl FoundRow {
         }
         self.rational += usize::from(splines().any(|nurbs| nurbs.weights.is_some()));
         self.periodic += usize::from(splines().any(|nurbs| nurbs.periodic));
+        self.hidden += usize::from(item.hidden);
+        self.inserted += usize::from(item.block.is_some());
         for shape in &item.shapes {
             match shape {
                 Shape::Nurbs(drawn) => match drawn.checked() {
@@ -157,6 +168,7 @@ impl FoundRow {
                 Shape::Conic(_) | Shape::Polyline { .. } => {}
             }
         }
+        item.shapes.len() == 1 && self.curves > known
     }
 
     /// Count a spline, without the conversion that would take long, and widen the box by it.
@@ -185,19 +197,17 @@ impl FoundRow {
 impl Drawing {
     /// List what is in the drawing by layer and kind.
     pub fn found(&self) -> Found {
-        let mut rows: Vec<FoundRow> = Vec::new();
-        let mut places: HashMap<(Space, &[String], Kind), usize> = HashMap::new();
+        let (places, count) = self.places();
+        let mut rows: Vec<FoundRow> = Vec::with_capacity(count);
+        let mut curves = Vec::with_capacity(self.items.len());
         let mut points: HashMap<usize, Vec<SinglePoint>> = HashMap::new();
         let mut remarks = Remarks::default();
-        for item in &self.items {
-            let key = (item.space, &item.group[..], item.kind);
-            let place = *places.entry(key).or_insert_with(|| {
+        for (item, place) in self.items.iter().zip(places) {
+            if place == rows.len() {
                 rows.push(FoundRow::new(RowKey::of(item)));
-                rows.len() - 1
-            });
-            if let Some(row) = rows.get_mut(place) {
-                row.add(item, &mut remarks);
             }
+            let row = rows.get_mut(place);
+            curves.push(row.is_some_and(|row| row.add(item, &mut remarks)));
             for point in SinglePoint::of(item) {
                 points.entry(place).or_default().push(point);
             }
@@ -216,10 +226,22 @@ impl Drawing {
             unit: self.unit,
             is_unitless: self.is_unitless,
             rows,
+            curves,
             other: self.other.clone(),
             remarks: [self.remarks.clone(), remarks.finish()].concat(),
             is_binary: self.is_binary,
         }
+    }
+
+    /// For each item the place of its row, in the order in which rows first occur, and the number of rows.
+    fn places(&self) -> (Vec<usize>, usize) {
+        let mut known: HashMap<(Space, &[String], Kind), usize> = HashMap::new();
+        let places = self.items.iter().map(|item| {
+            let next = known.len();
+            let key = (item.space, &item.group[..], item.kind);
+            *known.entry(key).or_insert(next)
+        });
+        (places.collect(), known.len())
     }
 }
 
@@ -254,18 +276,20 @@ impl Found {
         })
     }
 
-    /// Tell the size of what is taken, in the unit that the file says or that is chosen; `None` if nothing has a size.
-    pub fn size(&self, choice: &ImportChoice) -> Option<String> {
+    /// Tell the size of what is taken, in the unit that the file says or that is chosen, and in that of the document that
+    /// receives it; `None` if nothing has a size.
+    pub fn size(&self, choice: &ImportChoice, receiving: Option<LengthUnit>) -> Option<String> {
         let bounds = self.bounds(choice)?;
-        Some(match self.unit {
-            Some(millimetres) => match LengthUnit::ALL
-                .into_iter()
-                .find(|unit| unit.millimetres() == millimetres)
-            {
-                Some(unit) => size_told(bounds, 1.0, Some(unit)),
-                None => size_told(bounds, millimetres, Some(LengthUnit::Millimetre)),
-            },
-            None => size_told(bounds, 1.0, choice.unit),
+        let Some(millimetres) = self.unit else {
+            return Some(size_in_both(bounds, choice.unit, receiving));
+        };
+        let mut own = LengthUnit::ALL.into_iter();
+        Some(match own.find(|unit| unit.millimetres() == millimetres) {
+            Some(unit) => size_in_both(bounds, Some(unit), receiving),
+            None => {
+                let shown = receiving.unwrap_or(LengthUnit::Millimetre);
+                size_told(bounds, millimetres / shown.millimetres(), Some(shown))
+            }
         })
     }
 
@@ -292,15 +316,8 @@ impl Found {
             let Some(bounds) = bounds else {
                 return String::new();
             };
-            let own = size_told(bounds, 1.0, unit);
             let shown = receiving.unwrap_or(LengthUnit::Millimetre);
-            match unit.filter(|unit| *unit != shown) {
-                None => own,
-                Some(unit) => {
-                    let factor = unit.millimetres() / shown.millimetres();
-                    format!("{own} = {}", size_told(bounds, factor, Some(shown)))
-                }
-            }
+            size_in_both(bounds, unit, Some(shown))
         };
         let units = LengthUnit::ALL.map(Some).into_iter();
         // Without a unit numbers count in that of the document, if it has one.
@@ -395,6 +412,18 @@ impl Found {
     }
 }
 
+/// Tell the sides of a box in a unit, and in another one that is shown.
+fn size_in_both(bounds: [DVec3; 2], unit: Option<LengthUnit>, shown: Option<LengthUnit>) -> String {
+    let own = size_told(bounds, 1.0, unit);
+    match unit.zip(shown).filter(|(unit, shown)| unit != shown) {
+        None => own,
+        Some((unit, shown)) => {
+            let factor = unit.millimetres() / shown.millimetres();
+            format!("{own} = {}", size_told(bounds, factor, Some(shown)))
+        }
+    }
+}
+
 /// Tell the sides of a box in a unit: two in the plane, three in space.
 pub fn size_told([low, high]: [DVec3; 2], factor: f64, unit: Option<LengthUnit>) -> String {
     let sides = factor * (high - low);
@@ -475,6 +504,8 @@ mod tests {
             ],
             ..Drawing::default()
         };
+        drawing.items[1].hidden = true;
+        drawing.items[2].block = Some("winch".into());
         drawing.count_other("HATCH", 120);
         drawing.count_other("HATCH", 140);
         drawing
@@ -503,6 +534,12 @@ mod tests {
         assert_eq!((found.rows[0].references, found.rows[0].smooth), (2, 0));
         let expected = [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(3.0, 4.0, 0.0)];
         assert_eq!(found.rows[0].bounds, Some(expected));
+        let counts = found
+            .rows
+            .iter()
+            .map(|row| [row.hidden, row.inserted])
+            .collect::<Vec<_>>();
+        assert_eq!(counts, [[1, 0], [0, 1], [0, 0], [0, 0]]);
         let [low, high] = found.rows[2].bounds.expect("a box");
         assert!(low.distance(DVec3::new(8.0, -2.0, 0.0)) < 1e-12, "{low}");
         assert!(high.distance(DVec3::new(12.0, 2.0, 0.0)) < 1e-12, "{high}");
@@ -682,7 +719,17 @@ mod tests {
         assert_eq!(inches[0], "4 × 4 mm = 0.1575 × 0.1575 in");
         assert_eq!(inches.len(), 4, "numbers without a unit count in inches");
         choice.unit = Some(LengthUnit::Metre);
-        assert_eq!(found.size(&choice).as_deref(), Some("4 × 4 m"));
+        assert_eq!(found.size(&choice, None).as_deref(), Some("4 × 4 m"));
+        let inches = Found {
+            unit: Some(25.4),
+            ..found
+        };
+        let told = |receiving| inches.size(&choice, receiving);
+        assert_eq!(told(None).as_deref(), Some("4 × 4 in"));
+        let [inch, millimetre] = [LengthUnit::Inch, LengthUnit::Millimetre].map(Some);
+        assert_eq!(told(inch).as_deref(), Some("4 × 4 in"));
+        let expected = Some("4 × 4 in = 101.6 × 101.6 mm");
+        assert_eq!(told(millimetre).as_deref(), expected);
     }
 
     #[test]
