@@ -100,6 +100,11 @@ impl CurveSamples {
         }
     }
 
+    /// Free the room in which pieces are sampled, for a curve that hardly changes.
+    pub(super) fn free_room(&mut self) {
+        self.sampler = PieceSampler::new(self.steps());
+    }
+
     /// Mark where a curve leaps that a formula gives: all else is continuous.
     pub(super) fn mark_leaps(&mut self, curve: &dyn ParametricCurve) {
         let size = self.steps() + 1;

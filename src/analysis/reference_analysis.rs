@@ -13,9 +13,9 @@ use crate::document::Reference;
 use crate::geometry::ParametricCurve;
 use crate::geometry::references::{Placement, ReferenceForm};
 
-/// The samples of a reference, about: fewer than of a curve, since each may take an integral. Straight lines have the
-/// fewest that there are.
-const SAMPLES: usize = 1024;
+/// The samples of a reference, up to twice as many: fewer than of a curve, since each may take an integral. Straight
+/// lines have the fewest that there are.
+const SAMPLES: usize = 768;
 
 /// Hold the samples of a reference, its plots, and its features as far as samples tell them.
 #[derive(Debug)]
@@ -41,6 +41,7 @@ impl ReferenceAnalysis {
         if reference.curve.form().may_leap() {
             samples.mark_leaps(&unplaced);
         }
+        samples.free_room();
         Self::of_samples(reference, Arc::new(samples))
     }
 
