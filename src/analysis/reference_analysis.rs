@@ -218,6 +218,28 @@ mod tests {
     }
 
     #[test]
+    fn a_jump_of_the_curvature_at_a_knot_is_no_extremum() {
+        use SampledKind::{Inflection, Jump};
+        for (last, expected) in [
+            ([2.0, 4.0], &[Jump][..]),
+            ([3.0, 1.0], &[Inflection, Jump]),
+            // Both halves of this one mirror each other: nothing jumps, and the curvature is greatest in the middle.
+            ([2.0, 2.0], &[SampledKind::Maximum]),
+        ] {
+            let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 1.0], last];
+            let points = points.map(|[x, y]| DVec3::new(x, y, 0.0));
+            let knots = [0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 2.0];
+            let nurbs = Nurbs::new(2, knots, points, None, false).expect("a spline");
+            let curve = ReferenceCurve::of(ReferenceForm::Nurbs(nurbs)).expect("a curve");
+            let analysis = ReferenceAnalysis::new(Arc::new(Reference::new("a", curve)));
+            let features = analysis.features();
+            let kinds: Vec<SampledKind> = features.iter().map(|it| it.kind).collect();
+            assert_eq!(kinds, expected);
+            assert!(features.iter().all(|it| (it.u - 1.0).abs() < 1e-12));
+        }
+    }
+
+    #[test]
     fn a_closed_curve_has_no_extremum_less_at_its_seam() {
         for (text, expected) in [
             ("ellipse:a=3,b=1", 4),

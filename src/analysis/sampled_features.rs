@@ -10,6 +10,10 @@ const ROUNDING: f64 = 1e-9;
 /// differ, in units of the largest one: above the digits that files have, below what can be seen.
 const SEAM: f64 = 1e-6;
 
+/// A jump of the curvature by a smaller share of its value is not seen: points of seven digits leave such jumps where
+/// the curvature was continuous.
+const JUMP: f64 = 1e-3;
+
 /// Steps of a bisection between two samples: to the last digit.
 const HALVINGS: usize = 60;
 
@@ -24,6 +28,8 @@ pub enum SampledKind {
     Minimum,
     /// The curve stops, C′ = 0, and has no curvature.
     Cusp,
+    /// The curvature has different limits before and after a knot.
+    Jump,
 }
 
 /// A feature that samples show.
@@ -33,17 +39,18 @@ pub struct SampledFeature {
     pub kind: SampledKind,
     /// Where it is.
     pub u: f64,
-    /// The curvature there: signed of a planar curve; not a number at a cusp.
+    /// The curvature there: signed of a planar curve; not a number at a cusp or a jump.
     pub curvature: f64,
 }
 
 /// List the inflections and the extrema of the curvature within a curve that its samples show, and its cusps,
 /// in the order of u. An extremum must stand out from the samples around it by more than rounding; a cusp,
-/// near which the curvature grows beyond all bounds, is none. A curve that closes smoothly has no ends: what is at its
-/// seam counts once.
+/// near which the curvature grows beyond all bounds, is none, nor is a jump of the curvature. A curve that closes
+/// smoothly has no ends: what is at its seam counts once.
 pub(super) fn sampled_features(sampled: SampledCurve<'_>) -> Vec<SampledFeature> {
     let cusps = sampled_cusps(sampled.curve);
-    let mut runs = runs(curvatures(sampled), &cusps, sampled);
+    let jumps = jumps(sampled, &cusps);
+    let mut runs = runs(sampled, &cusps, &jumps);
     let largest = runs.iter().flatten().map(|(_, value)| value.abs());
     let largest = largest.fold(0.0, f64::max);
     let noise = ROUNDING * largest;
@@ -54,7 +61,7 @@ pub(super) fn sampled_features(sampled: SampledCurve<'_>) -> Vec<SampledFeature>
     }
     let mut features: Vec<SampledFeature> = Vec::new();
     for run in &runs {
-        features.extend(match is_closed && cusps.is_empty() {
+        features.extend(match is_closed && cusps.is_empty() && jumps.is_empty() {
             true => extrema_around(run, noise, sampled),
             false => extrema(run, noise, sampled),
         });
@@ -67,6 +74,7 @@ pub(super) fn sampled_features(sampled: SampledCurve<'_>) -> Vec<SampledFeature>
             feature.u = wrapped(turn, feature.u);
         }
     }
+    features.extend(jumps.iter().flat_map(|jump| jump.features(sampled)));
     // Through infinity the curvature may change its sign, but the curve has no point there.
     features.retain(|feature| !leaps_at(sampled, feature.u));
     features.extend(cusps.into_iter().map(|u| SampledFeature {
@@ -144,14 +152,69 @@ fn jet(sampled: SampledCurve<'_>, u: f64) -> Jet {
     sampled.curve.jet(if u > turn { u - turn } else { u })
 }
 
-/// The samples between the cusps: those within a step of one count for nothing.
-fn runs(points: Vec<(f64, f64)>, cusps: &[f64], sampled: SampledCurve<'_>) -> Vec<Vec<(f64, f64)>> {
-    let step = 1.0 / sampled.samples.steps() as f64;
-    let mut runs = vec![Vec::new(); cusps.len() + 1];
-    for (u, value) in points {
-        let run = cusps.partition_point(|cusp| *cusp < u);
-        if cusps.iter().all(|cusp| (u - cusp).abs() > step) {
-            runs[run].push((u, value));
+/// A jump of the curvature.
+struct Jump {
+    /// The piece behind it.
+    piece: usize,
+    /// The curvatures before and after it.
+    sides: [f64; 2],
+}
+
+impl Jump {
+    /// The jump, and the inflection where the sign changes too.
+    fn features(&self, sampled: SampledCurve<'_>) -> impl Iterator<Item = SampledFeature> {
+        let feature = |kind, curvature| SampledFeature {
+            kind,
+            u: self.piece as f64,
+            curvature,
+        };
+        let [before, after] = self.sides;
+        let turns = sampled.samples.is_planar() && before * after < 0.0;
+        let inflection = turns.then(|| feature(SampledKind::Inflection, 0.0));
+        let jump = feature(SampledKind::Jump, f64::NAN);
+        inflection.into_iter().chain([jump])
+    }
+}
+
+/// Where the curvature jumps between two pieces, away from cusps.
+fn jumps(sampled: SampledCurve<'_>, cusps: &[f64]) -> Vec<Jump> {
+    let samples = sampled.samples;
+    let all = samples.all().iter().map(|sample| sample.curvature.abs());
+    let largest = all.filter(|it| it.is_finite()).fold(0.0, f64::max);
+    let sides = |piece: usize| {
+        let (before, after) = (samples.piece(piece - 1), samples.piece(piece));
+        Some([before.last()?.curvature, after.first()?.curvature])
+    };
+    let step = 1.0 / samples.steps() as f64;
+    let is_apart = |piece: usize| cusps.iter().all(|it| (piece as f64 - it).abs() > step);
+    let all = (1..samples.pieces()).filter(|piece| is_apart(*piece));
+    let all = all.filter_map(|piece| {
+        let sides = sides(piece)?;
+        let jump = (sides[1] - sides[0]).abs();
+        let is_seen = jump > JUMP * sides[0].abs().max(sides[1].abs()) && jump > SEAM * largest;
+        is_seen.then_some(Jump { piece, sides })
+    });
+    all.collect()
+}
+
+/// The finite curvatures of all samples, with their parameters, in runs between the cusps and the jumps: samples within a
+/// step of a cusp count for nothing.
+fn runs(sampled: SampledCurve<'_>, cusps: &[f64], jumps: &[Jump]) -> Vec<Vec<(f64, f64)>> {
+    let samples = sampled.samples;
+    let steps = samples.steps() as f64;
+    let mut runs = vec![Vec::new(); cusps.len() + jumps.len() + 1];
+    for piece in 0..samples.pieces() {
+        let passed = jumps.partition_point(|jump| jump.piece <= piece);
+        // The end of a piece is the start of the next, but for a jump.
+        let is_new = piece == 0 || jumps[..passed].last().is_some_and(|it| it.piece == piece);
+        let own = samples.piece(piece).iter().enumerate();
+        for (index, sample) in own.skip(usize::from(!is_new)) {
+            let u = piece as f64 + index as f64 / steps;
+            let run = passed + cusps.partition_point(|cusp| *cusp < u);
+            let is_apart = cusps.iter().all(|cusp| (u - cusp).abs() > 1.0 / steps);
+            if is_apart && sample.curvature.is_finite() {
+                runs[run].push((u, sample.curvature));
+            }
         }
     }
     runs
@@ -163,24 +226,6 @@ fn leaps_at(sampled: SampledCurve<'_>, u: f64) -> bool {
     let after = (t * sampled.samples.steps() as f64) as usize + 1;
     let sample = sampled.samples.piece(piece).get(after);
     sample.is_some_and(|sample| sample.leaps)
-}
-
-/// The finite curvatures of all samples, with their parameters.
-fn curvatures(sampled: SampledCurve<'_>) -> Vec<(f64, f64)> {
-    let samples = sampled.samples;
-    let steps = samples.steps() as f64;
-    let mut points: Vec<(f64, f64)> = Vec::new();
-    for piece in 0..samples.pieces() {
-        for (index, sample) in samples.piece(piece).iter().enumerate() {
-            let u = piece as f64 + index as f64 / steps;
-            // The end of a piece is the start of the next.
-            let is_new = points.last().is_none_or(|(last, _)| u > *last);
-            if is_new && sample.curvature.is_finite() {
-                points.push((u, sample.curvature));
-            }
-        }
-    }
-    points
 }
 
 fn curvature_at(sampled: SampledCurve<'_>, u: f64) -> f64 {

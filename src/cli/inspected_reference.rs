@@ -35,6 +35,7 @@ struct SampledFeatures {
     inflections: Vec<f64>,
     curvature_extrema: Vec<SampledExtremum>,
     cusps: Vec<f64>,
+    curvature_jumps: Vec<f64>,
 }
 
 #[derive(Serialize)]
@@ -88,6 +89,7 @@ impl SampledFeatures {
             inflections: Vec::new(),
             curvature_extrema: Vec::new(),
             cusps: Vec::new(),
+            curvature_jumps: Vec::new(),
         }
     }
 
@@ -103,7 +105,7 @@ impl SampledFeatures {
             let kind = match feature.kind {
                 SampledKind::Maximum => "max",
                 SampledKind::Minimum => "min",
-                SampledKind::Inflection | SampledKind::Cusp => return None,
+                SampledKind::Inflection | SampledKind::Cusp | SampledKind::Jump => return None,
             };
             Some(SampledExtremum {
                 t: at(feature),
@@ -116,6 +118,7 @@ impl SampledFeatures {
             inflections: places(SampledKind::Inflection),
             curvature_extrema: analysis.features().iter().filter_map(extremum).collect(),
             cusps: places(SampledKind::Cusp),
+            curvature_jumps: places(SampledKind::Jump),
         }
     }
 }

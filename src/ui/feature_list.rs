@@ -162,6 +162,7 @@ fn listed(report: &FeatureReport, verdict: Option<String>, extrema: Option<Strin
         said(&TORSION[..2], "τ extremum", "τ extrema"),
         said(&TORSION[2..], "τ zero", "τ zeros"),
         said(&[FeatureKind::Cusp], "cusp", "cusps"),
+        said(&[FeatureKind::CurvatureJump], "κ jump", "κ jumps"),
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     parts.join(" · ")
@@ -225,6 +226,7 @@ fn short_name(kind: FeatureKind) -> &'static str {
         FeatureKind::TorsionZero => "τ zero",
         FeatureKind::Inflection => "inflection",
         FeatureKind::Cusp => "cusp",
+        FeatureKind::CurvatureJump => "κ jump",
         FeatureKind::Undecided => "undecided",
     }
 }

@@ -24,14 +24,14 @@ fn colour(kind: FeatureKind, tokens: &Tokens) -> Color32 {
         | FeatureKind::CurvatureMaximum
         | FeatureKind::CurvatureMinimum => tokens.strong_text,
         FeatureKind::TorsionMaximum | FeatureKind::TorsionMinimum => tokens.evolute,
-        FeatureKind::Cusp => tokens.error,
+        FeatureKind::Cusp | FeatureKind::CurvatureJump => tokens.error,
         FeatureKind::Undecided => tokens.undecided,
     }
 }
 
 /// Paint a feature's glyph: triangles for extrema, upwards for maxima; a diamond for an
-/// inflection, a square for a zero of the torsion, a cross for a cusp, a ring for an
-/// undecided feature.
+/// inflection, a square for a zero of the torsion, a cross for a cusp, a step for a
+/// jump of the curvature, a ring for an undecided feature.
 pub fn glyph(painter: &Painter, at: Pos2, kind: FeatureKind, tokens: &Tokens) {
     let stroke = Stroke::new(1.5, colour(kind, tokens));
     let corners: &[(f32, f32)] = match kind {
@@ -47,6 +47,12 @@ pub fn glyph(painter: &Painter, at: Pos2, kind: FeatureKind, tokens: &Tokens) {
             for arm in [vec2(HALF, HALF), vec2(HALF, -HALF)] {
                 painter.line_segment([at - arm, at + arm], stroke);
             }
+            return;
+        }
+        FeatureKind::CurvatureJump => {
+            let steps = [(-1.2, 0.7), (0.0, 0.7), (0.0, -0.7), (1.2, -0.7)];
+            let steps = steps.map(|(x, y)| at + HALF * vec2(x, y));
+            painter.add(Shape::line(steps.to_vec(), stroke));
             return;
         }
         FeatureKind::Undecided => {

@@ -66,12 +66,13 @@ fn bands(tokens: &Tokens) -> [Row; 3] {
     ]
 }
 
-fn glyphs(tokens: &Tokens) -> [Row; 8] {
+fn glyphs(tokens: &Tokens) -> [Row; 9] {
     let kinds = [
         FeatureKind::CurvatureMaximum,
         FeatureKind::CurvatureMinimum,
         FeatureKind::Inflection,
         FeatureKind::Cusp,
+        FeatureKind::CurvatureJump,
         FeatureKind::TorsionMaximum,
         FeatureKind::TorsionMinimum,
         FeatureKind::TorsionZero,

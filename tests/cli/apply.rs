@@ -809,7 +809,8 @@ fn references_of_a_project_are_approximated_and_inspected() {
     let round = json!({"name": "round", "group": "", "kind": "circle", "text": "circle:radius=2,from=0,to=3",
         "parameters": {"radius": 2.0}, "interval": [0.0, 3.0],
         "placement": {"rotation": [0.0, 0.0, 0.0, 1.0], "scale": 2.0, "translation": [1.0, 0.0, 0.0]},
-        "features": {"sampled": true, "inflections": [], "curvature_extrema": [], "cusps": []}});
+        "features": {"sampled": true, "inflections": [], "curvature_extrema": [], "cusps": [],
+            "curvature_jumps": []}});
     assert_eq!(inspected[0], round);
     assert_eq!(inspected[1]["parameters"], json!({"x": "t", "y": "sin(t)"}));
     let features = &inspected[1]["features"];

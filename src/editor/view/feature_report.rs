@@ -33,6 +33,8 @@ pub enum FeatureKind {
     TorsionMinimum,
     /// The tangent vanishes, or may vanish.
     Cusp,
+    /// The curvature has different limits before and after a knot.
+    CurvatureJump,
     /// Something may lie here that could not be counted.
     Undecided,
 }
@@ -48,6 +50,7 @@ impl FeatureKind {
             Self::TorsionMaximum => "Torsion maximum",
             Self::TorsionMinimum => "Torsion minimum",
             Self::Cusp => "Cusp",
+            Self::CurvatureJump => "Curvature jump",
             Self::Undecided => "Undecided",
         }
     }
@@ -124,6 +127,7 @@ impl FeatureReport {
                 SampledKind::Maximum => (FeatureKind::CurvatureMaximum, Some(feature.curvature)),
                 SampledKind::Minimum => (FeatureKind::CurvatureMinimum, Some(feature.curvature)),
                 SampledKind::Cusp => (FeatureKind::Cusp, None),
+                SampledKind::Jump => (FeatureKind::CurvatureJump, None),
             };
             FeatureRow {
                 kind,

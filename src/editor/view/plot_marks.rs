@@ -25,9 +25,10 @@ const TORSION: LevelPlot = LevelPlot::Torsion(1);
 /// Whether a plot shows the quantity that has a feature.
 fn shows(plot: LevelPlot, kind: FeatureKind) -> bool {
     match kind {
-        FeatureKind::Inflection | FeatureKind::CurvatureMaximum | FeatureKind::CurvatureMinimum => {
-            plot == LevelPlot::CURVATURE
-        }
+        FeatureKind::Inflection
+        | FeatureKind::CurvatureMaximum
+        | FeatureKind::CurvatureMinimum
+        | FeatureKind::CurvatureJump => plot == LevelPlot::CURVATURE,
         FeatureKind::TorsionZero | FeatureKind::TorsionMaximum | FeatureKind::TorsionMinimum => {
             plot == TORSION
         }
