@@ -21,10 +21,10 @@ use crate::geometry::{MAX_DEGREE, Progress};
 const REFERENCES: Parameter = Parameter {
     name: "references",
     label: "References",
-    help: "The chosen one, all of its group, or all; without a chosen one all. Hidden ones stay",
+    help: "One, all of its group, or all; hidden ones stay unless chosen",
     kind: Kind::Choice {
         options: &[
-            Choice::new("chosen", "Chosen"),
+            Choice::new("chosen", "Chosen, else all"),
             Choice::new("group", "Its group"),
             Choice::new("all", "All"),
         ],
