@@ -33,10 +33,10 @@ const LIST: [f32; 2] = [4.0 * ROW, 16.0 * ROW];
 /// The captions of the columns with their left edges, of the width of a row; figures end at the edge of the next one.
 const COLUMNS: [(&str, f32); 6] = [
     ("Layer", 0.04),
-    ("Kind", 0.36),
-    ("Count", 0.49),
-    ("Degree", 0.61),
-    ("Form", 0.70),
+    ("Kind", 0.29),
+    ("Count", 0.41),
+    ("Degree", 0.53),
+    ("Form", 0.62),
     ("Size", 0.80),
 ];
 
