@@ -175,7 +175,7 @@ fn the_pieces_of_an_item_are_a_group_and_so_is_a_block() {
         [
             ("rail 1", vec!["Layer", "rail"]),
             ("rail 2", vec!["Layer", "rail"]),
-            ("rail 1 2", vec!["rail 2"]),
+            ("rail 2 1", vec!["rail 2"]),
             ("rail 2 2", vec!["rail 2"]),
             ("path 1 1", vec!["path 1"]),
             ("path 1 2", vec!["path 1"]),

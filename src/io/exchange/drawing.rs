@@ -117,6 +117,20 @@ impl Kind {
             Self::Point => "point",
         }
     }
+
+    /// The name that an item of this kind gets if it has none, by its number from 1.
+    pub(super) fn numbered(self, number: usize) -> String {
+        format!("{} {number}", self.name())
+    }
+
+    /// Whether a name is one that an item without a name gets, or a piece of it.
+    pub(in crate::io) fn is_made_up(name: &str) -> bool {
+        let is_number = |text: &str| !text.is_empty() && text.bytes().all(|it| it.is_ascii_digit());
+        let Some((kind, numbers)) = name.split_once(' ') else {
+            return false;
+        };
+        Self::ALL.iter().any(|it| it.name() == kind) && numbers.split(' ').all(is_number)
+    }
 }
 
 /// Where an item belongs in its file.

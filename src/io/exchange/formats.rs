@@ -197,6 +197,7 @@ pub static OBJ: Format = Format {
                 kept: obj::kept_group,
                 marks: Marks::NAMES,
                 as_splines: |shape| matches!(shape, Shape::Conic(_)),
+                chains: false,
                 ..SPLINES
             },
             obj::write,
@@ -238,6 +239,7 @@ pub static CURVE_JSON: Format = Format {
             holds: curve_json::holds,
             marks: Marks::NAMES,
             as_splines: |shape| matches!(shape, Shape::Conic(_) | Shape::Polyline { .. }),
+            chains: false,
             ..SPLINES
         };
         written(document, writing, losses, manner, curve_json::write)
@@ -307,6 +309,7 @@ const SPLINES: Manner = Manner {
     marks: Marks::ALL,
     as_splines: |_| false,
     hides: false,
+    chains: true,
 };
 
 fn drawn(

@@ -2,6 +2,7 @@
 //! references are taken; each writer makes bytes of one.
 
 mod brep;
+mod chains;
 pub(super) mod changes;
 mod choice;
 mod conic_frame;

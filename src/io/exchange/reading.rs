@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3};
 
+use super::chains::piece_name;
 use super::choice::{ImportChoice, RowKey, free_space};
 use super::drawing::{Affine, Conic, Drawing, Item, Kind, Nurbs as DrawnNurbs, Shape, Space};
 use super::single_points::{SinglePoint, common, lists};
@@ -228,10 +229,10 @@ impl<'d> Taken<'d> {
                 self.points.push(SinglePoint { point, item });
                 continue;
             }
-            let name = match own.or(chain.as_ref()) {
-                Some(name) if shapes > 1 => self.names.free(&format!("{name} {}", index + 1)),
-                Some(name) => self.names.free(name),
-                None => self.names.of_kind(item.kind),
+            let name = match (&chain, own) {
+                (Some(chain), _) => self.names.free(&piece_name(chain, index + 1)),
+                (None, Some(name)) => self.names.free(name),
+                (None, None) => self.names.of_kind(item.kind),
             };
             match Made::of(&scaled(shape, self.factor)) {
                 Ok(Made::Curve(near)) => {
@@ -437,7 +438,7 @@ impl Names {
     fn of_kind(&mut self, kind: Kind) -> String {
         let count = self.counts.entry(kind).or_default();
         *count += 1;
-        let name = format!("{} {count}", kind.name());
+        let name = kind.numbered(*count);
         self.free(&name)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::chains;
 use super::cubics::Cubics;
 use super::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
 use crate::document::{Curve, Document, Group, Reference};
@@ -32,6 +33,8 @@ pub(in crate::io) struct Manner {
     pub(in crate::io) as_splines: fn(&Shape) -> bool,
     /// Whether it holds that items are hidden.
     pub(in crate::io) hides: bool,
+    /// Whether it has polycurves.
+    pub(in crate::io) chains: bool,
 }
 
 /// What a format holds of the names and colours of items.
@@ -98,6 +101,14 @@ impl Drawing {
         for (_, reference) in document.references() {
             let items = Item::of_reference(reference, manner, losses);
             drawing.items.extend(items);
+        }
+        if manner.chains {
+            let items = std::mem::take(&mut drawing.items);
+            let holds = |item: &Item| (manner.holds)(item).is_ok();
+            drawing.items = chains::joined(items, holds, losses, |item, losses| {
+                let name = item.name.as_deref().unwrap_or_default();
+                report_group(name, &Group::new(&item.group[..]), manner.kept, losses);
+            });
         }
         let format = losses.format;
         match (drawing.items.is_empty(), losses.first_left_out()) {
@@ -315,9 +326,13 @@ fn shape(curve: &ReferenceCurve) -> Option<(Kind, Shape)> {
     match curve.form() {
         ReferenceForm::Points(list) => {
             let points = list.points().iter();
-            let points = points.map(|point| placement.point(*point)).collect();
+            let points: Vec<_> = points.map(|point| placement.point(*point)).collect();
             let closed = false;
-            Some((Kind::Polyline, Shape::Polyline { points, closed }))
+            let kind = match points.len() {
+                2 => Kind::Line,
+                _ => Kind::Polyline,
+            };
+            Some((kind, Shape::Polyline { points, closed }))
         }
         ReferenceForm::Nurbs(nurbs) if curve.interval() == nurbs.interval() => {
             let mut drawn = drawn(nurbs);
