@@ -6,6 +6,9 @@ use std::collections::HashSet;
 /// What AutoCAD forbids in the name of a layer.
 const FORBIDDEN: &str = "<>/\\\":;?*|=,`";
 
+/// The layer that every drawing has.
+pub(super) const DEFAULT: &str = "0";
+
 /// The longest name made, in characters: with what is appended to it well below the 255 that
 /// are allowed.
 const LONGEST: usize = 180;
@@ -16,11 +19,12 @@ pub(super) struct LayerNames {
 }
 
 impl LayerNames {
-    /// Begin with the names that every drawing has.
-    pub(super) fn new() -> Self {
-        let taken = ["0", "defpoints"].map(str::to_owned);
+    /// Begin with the names that every drawing has, also with each of the `suffixes` appended.
+    pub(super) fn new(suffixes: &[&str]) -> Self {
+        let own = [DEFAULT, "defpoints"].map(str::to_owned).into_iter();
+        let others = suffixes.iter().map(|suffix| format!("{DEFAULT}{suffix}"));
         Self {
-            taken: taken.into(),
+            taken: own.chain(others).collect(),
         }
     }
 
@@ -68,7 +72,7 @@ mod tests {
     use super::*;
 
     fn check(names: &[&str], expected: &[&str]) {
-        let mut layers = LayerNames::new();
+        let mut layers = LayerNames::new(&[" float polygon"]);
         let given: Vec<String> = names
             .iter()
             .map(|name| layers.take(name, &[" float polygon"]))
@@ -96,6 +100,7 @@ mod tests {
             &["arc", "ARC", "arc 2", "0"],
             &["arc", "ARC 2", "arc 2 2", "0 2"],
         );
+        check(&["0 float polygon"], &["0 float polygon 2"]);
         check(
             &["arc", "arc float polygon"],
             &["arc", "arc float polygon 2"],

@@ -4,7 +4,6 @@
 use glam::DVec3;
 
 use super::writer::Writer;
-use crate::document::Curve;
 use crate::geometry::PolygonKind;
 use crate::geometry::expressions::LengthUnit;
 
@@ -34,11 +33,6 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    /// Make the layer of a curve, or of one of its polygons.
-    pub(super) fn of(curve: &Curve, name: String, polygon: Option<PolygonKind>) -> Self {
-        Self::new(name, polygon, curve.visible, curve.locked)
-    }
-
     /// Make a layer, of polygons if a kind is given.
     pub(super) fn new(
         name: String,

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use super::frame::Layer;
 use crate::document::{Curve, Group, Reference};
 use crate::geometry::PolygonKind;
-use crate::io::layer_names::LayerNames;
+use crate::io::exchange::drawing::Kind;
+use crate::io::layer_names::{DEFAULT, LayerNames};
 
 /// Stands between the names of a path, as in the files of other programs that have layers within layers.
 const SEPARATOR: &str = "$";
@@ -29,7 +30,7 @@ impl<'a> Layers<'a> {
     pub(super) fn new(kinds: &'a [PolygonKind]) -> Self {
         Self {
             kinds,
-            names: LayerNames::new(),
+            names: LayerNames::new(&PolygonKind::ALL.map(suffix)),
             shared: HashMap::new(),
             references: HashMap::new(),
             list: Vec::new(),
@@ -43,51 +44,64 @@ impl<'a> Layers<'a> {
 
     /// The layer of a curve. Those of its polygons are there too, their names with a [`suffix`].
     pub(super) fn take(&mut self, curve: &Curve) -> String {
-        if curve.group.is_none() {
-            return self.add(curve, &curve.name);
-        }
-        let shared = (curve.group.clone(), curve.visible, curve.locked);
+        let state = (curve.visible, curve.locked);
+        let Some(group) = shared_group(&curve.name, &curve.group) else {
+            return self.add(state, &curve.name);
+        };
+        let shared = (group, curve.visible, curve.locked);
         if let Some(layer) = self.shared.get(&shared) {
             return layer.clone();
         }
-        let layer = self.add(curve, &group_name(curve));
+        let layer = self.add(state, &group_name(&shared));
         self.shared.insert(shared, layer.clone());
         layer
     }
 
     /// The layer of a reference: that of its group, or one of its name.
     pub(super) fn take_reference(&mut self, reference: &Reference) -> String {
-        let path = reference.group.names().join(SEPARATOR);
-        let name = match reference.group.is_none() {
-            true => &reference.name,
-            false => &path,
+        let state = (reference.visible, reference.locked);
+        let Some(group) = shared_group(&reference.name, &reference.group) else {
+            return self.add_plain(state, &reference.name);
         };
-        let shared = (reference.group.clone(), reference.visible, reference.locked);
+        let shared = (group, reference.visible, reference.locked);
         let known = self.shared.get(&shared);
-        let known = known.or_else(|| self.references.get(&shared));
-        if let Some(layer) = known.filter(|_| !reference.group.is_none()) {
+        if let Some(layer) = known.or_else(|| self.references.get(&shared)) {
             return layer.clone();
         }
-        let layer = self.names.take(name, &PolygonKind::ALL.map(suffix));
-        self.list.push(Layer::new(
-            layer.clone(),
-            None,
-            reference.visible,
-            reference.locked,
-        ));
+        let layer = self.add_plain(state, &group_name(&shared));
         self.references.insert(shared, layer.clone());
         layer
     }
 
-    fn add(&mut self, curve: &Curve, name: &str) -> String {
-        let base = self.names.take(name, &PolygonKind::ALL.map(suffix));
-        self.list.push(Layer::of(curve, base.clone(), None));
+    /// Add a layer, and those of polygons.
+    fn add(&mut self, (visible, locked): (bool, bool), name: &str) -> String {
+        let base = self.add_plain((visible, locked), name);
         for &kind in self.kinds {
             let layer = format!("{base}{}", suffix(kind));
-            self.list.push(Layer::of(curve, layer, Some(kind)));
+            self.list
+                .push(Layer::new(layer, Some(kind), visible, locked));
         }
         base
     }
+
+    /// Add a layer, but for the one that every drawing has.
+    fn add_plain(&mut self, (visible, locked): (bool, bool), name: &str) -> String {
+        if name == DEFAULT {
+            return name.to_owned();
+        }
+        let layer = self.names.take(name, &PolygonKind::ALL.map(suffix));
+        self.list
+            .push(Layer::new(layer.clone(), None, visible, locked));
+        layer
+    }
+}
+
+/// The group whose layers hold a curve or a reference: names that readers make up are none. `None` for what has a layer of
+/// its own, since it has a name and no group.
+fn shared_group(name: &str, group: &Group) -> Option<Group> {
+    let names = group.names().iter().filter(|name| !Kind::is_made_up(name));
+    let group = Group::new(names);
+    (!group.is_none() || Kind::is_made_up(name)).then_some(group)
 }
 
 /// What the name of a polygon's layer has behind that of its curve.
@@ -99,10 +113,13 @@ pub(super) fn suffix(kind: PolygonKind) -> &'static str {
     }
 }
 
-/// The name of a group's layer for curves that are as visible and as locked as this one.
-fn group_name(curve: &Curve) -> String {
-    let hidden = if curve.visible { "" } else { " hidden" };
-    let locked = if curve.locked { " locked" } else { "" };
-    let path = curve.group.names().join(SEPARATOR);
+/// The name of the layer of a group, of what is as visible and as locked; without names the layer that every drawing has.
+fn group_name((group, visible, locked): &Shared) -> String {
+    let hidden = if *visible { "" } else { " hidden" };
+    let locked = if *locked { " locked" } else { "" };
+    let path = match group.is_none() {
+        true => DEFAULT.to_owned(),
+        false => group.names().join(SEPARATOR),
+    };
     format!("{path}{hidden}{locked}")
 }

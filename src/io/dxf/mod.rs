@@ -14,7 +14,7 @@ use crate::document::{Colour, Curve, Document, Group, Reference};
 use crate::geometry::{ClampedPolygon, PolygonKind};
 use crate::io::error::WriteError;
 use crate::io::exchange;
-use crate::io::exchange::drawing::{Conic, Nurbs, Shape};
+use crate::io::exchange::drawing::{Conic, Kind, Nurbs, Shape};
 use crate::io::exchange::dxf::colours::nearest_index;
 use crate::io::format::{ExportRow, FileUnit, Format, Writing};
 use crate::io::loss::{Loss, LossReport};
@@ -128,9 +128,12 @@ fn drawing(
         entities.set_colour(reference.colour);
         for shape in shapes {
             match shape {
-                Shape::Polyline { points, closed } => {
-                    polyline(&mut entities, &points, closed, &layer, &mut reach);
-                }
+                Shape::Polyline { points, closed } => match points[..] {
+                    [from, to] if !closed => {
+                        line(&mut entities, [from, to], &layer, &mut reach);
+                    }
+                    _ => polyline(&mut entities, &points, closed, &layer, &mut reach),
+                },
                 Shape::Nurbs(nurbs) => spline(&mut entities, &nurbs, &layer, &mut reach),
                 Shape::Conic(it) => conic(&mut entities, &it, &layer, &mut reach),
                 Shape::Point(point) => single_point(&mut entities, point, &layer, &mut reach),
@@ -167,13 +170,7 @@ impl Reach {
 }
 
 fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossReport) {
-    let written = layer.to_owned();
-    if !curve.group.is_none() {
-        losses.add(curve, Loss::NoName);
-        losses.add_group(&curve.name, &curve.group, Group::new([written]));
-    } else if layer != curve.name {
-        losses.add(curve, Loss::Name { written });
-    }
+    report_names(&curve.name, &curve.group, layer, losses);
     losses.add_own_attributes(curve);
     report_colour(&curve.name, curve.colour, losses);
     losses.add_if(curve.polygon.is_periodic(), curve, Loss::Periodic);
@@ -184,16 +181,25 @@ fn report(curve: &Curve, layer: &str, kinds: &[PolygonKind], losses: &mut LossRe
 }
 
 fn report_reference(reference: &Reference, layer: &str, losses: &mut LossReport) {
-    let Reference { name, group, .. } = reference;
-    if !group.is_none() {
-        losses.losses.push((name.clone(), Loss::NoName));
-        losses.add_group(name, group, Group::new([layer.to_owned()]));
-    } else if layer != name {
-        let written = layer.to_owned();
-        losses.losses.push((name.clone(), Loss::Name { written }));
-    }
+    let name = &reference.name;
+    report_names(name, &reference.group, layer, losses);
     report_colour(name, reference.colour, losses);
     losses.add_point_weights(reference);
+}
+
+/// Report names that its layer does not hold. Names that readers make up are no loss.
+fn report_names(name: &str, group: &Group, layer: &str, losses: &mut LossReport) {
+    let mut lose = |loss| losses.losses.push((name.to_owned(), loss));
+    let is_made_up = Kind::is_made_up(name);
+    if !group.is_none() {
+        if !is_made_up {
+            lose(Loss::NoName);
+        }
+        losses.add_group(name, group, Group::new([layer.to_owned()]));
+    } else if layer != name && !is_made_up {
+        let written = layer.to_owned();
+        lose(Loss::Name { written });
+    }
 }
 
 fn report_colour(name: &str, colour: Option<Colour>, losses: &mut LossReport) {
@@ -319,6 +325,15 @@ fn single_point(writer: &mut Writer, point: DVec3, layer: &str, reach: &mut Reac
     writer.entity("POINT", layer);
     writer.text(100, "AcDbPoint");
     writer.point(10, point);
+}
+
+fn line(writer: &mut Writer, ends: [DVec3; 2], layer: &str, reach: &mut Reach) {
+    reach.add(&ends);
+    writer.entity("LINE", layer);
+    writer.text(100, "AcDbLine");
+    for (code, end) in [(10, ends[0]), (11, ends[1])] {
+        writer.point(code, end);
+    }
 }
 
 fn polyline(

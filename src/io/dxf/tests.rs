@@ -11,7 +11,6 @@ use crate::document::Colour;
 use crate::geometry::FloatPolygon;
 use crate::geometry::end_correction::EndTarget;
 use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
-use crate::io::exchange::drawing::Kind;
 use crate::io::loss::Export;
 
 type Pair = (i32, String);
