@@ -17,6 +17,9 @@ use super::spline_part::is_finite;
 use crate::geometry::counted;
 use crate::io::exchange::drawing::{Affine, Drawing, Item, Kind, Shape, Space, Unreadable};
 
+/// The use flag of curves in the parameter plane of a surface.
+const IN_PARAMETERS: u8 = 5;
+
 /// Remarks kept: a damaged file would otherwise give one for each of its entities.
 const REMARKS: usize = 1000;
 
@@ -72,7 +75,7 @@ struct Reader<'a> {
     open: Vec<u32>,
     /// How many items are hidden.
     hidden: usize,
-    /// How many items lie in the parameter plane of a surface.
+    /// How many curves lie in the parameter plane of a surface.
     flat: usize,
     /// How many remarks were left out.
     untold: usize,
@@ -321,6 +324,14 @@ impl<'a> Reader<'a> {
         kind: Kind,
         shapes: Vec<Shape>,
     ) {
+        // Such curves have two coordinates, which are no lengths.
+        if entry.usage == IN_PARAMETERS {
+            self.flat = self.flat.saturating_add(1);
+            return;
+        }
+        let space = self.space(entry, context);
+        // Surfaces show their boundaries, whatever their own status is.
+        let hidden = entry.is_hidden && space != Space::Edge;
         let item = Item {
             kind,
             shapes,
@@ -328,13 +339,12 @@ impl<'a> Reader<'a> {
             name: self.links.name(entry, properties),
             block: context.block.clone(),
             colour: self.links.colour(entry),
-            hidden: entry.is_hidden,
-            space: self.space(entry, context),
+            hidden,
+            space,
             at: entry.line,
         };
         if self.spending.keep(&item, self.drawing.items.last()) {
-            self.hidden = self.hidden.saturating_add(usize::from(entry.is_hidden));
-            self.flat = self.flat.saturating_add(usize::from(entry.usage == 5));
+            self.hidden = self.hidden.saturating_add(usize::from(hidden));
             self.drawing.items.push(item);
         }
     }
@@ -400,9 +410,9 @@ impl<'a> Reader<'a> {
             remarks.push(format!("{told} (blank status 01)"));
         }
         if self.flat > 0 {
-            let count = self.flat;
+            let told = counted(self.flat, "curve lies", "curves lie");
             remarks.push(format!(
-                "{count} curves (use flag 05) lie in the parameter plane of a surface"
+                "{told} in the parameter plane of a surface (use flag 05) and are left out"
             ));
         }
         if !self.spending.is_over() {

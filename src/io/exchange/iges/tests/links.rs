@@ -115,11 +115,15 @@ fn status_digits_give_space_and_remarks() {
     ]);
     let spaces: Vec<Space> = drawing.items.iter().map(|item| item.space).collect();
     use Space::{Edge, Model};
-    assert_eq!(spaces, [Model, Edge, Edge, Edge, Edge, Model]);
+    // A curve in the parameter plane of a surface is none in space.
+    assert_eq!(spaces, [Model, Edge, Edge, Edge, Model]);
     let hidden: Vec<bool> = drawing.items.iter().map(|item| item.hidden).collect();
-    assert_eq!(hidden, [false, false, false, false, false, true]);
+    assert_eq!(hidden, [false, false, false, false, true]);
     assert!(has_remark(&drawing, "1 item is hidden (blank status 01)"));
-    assert!(has_remark(&drawing, "1 curves (use flag 05)"));
+    assert!(has_remark(
+        &drawing,
+        "1 curve lies in the parameter plane of a surface (use flag 05)"
+    ));
 }
 
 #[test]
