@@ -79,7 +79,9 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::References,
     each: false,
     parameters: &[REFERENCES, TOLERANCE, DEGREE, KEEP, TIME_LIMIT],
-    check: |input| match converted(input, Which::Chosen).is_empty() {
+    check: |input| match converted(input, Which::All).is_empty()
+        && converted(input, Which::Chosen).is_empty()
+    {
         true => Err(OperationError::Inputs {
             needed: Inputs::References,
         }),
@@ -117,6 +119,9 @@ fn is_within(group: &Group, outer: &Group) -> bool {
 
 fn run(input: &Operands, values: &Values, progress: &Progress) -> Result<Outcome, OperationError> {
     let references = converted(input, values.choice(&REFERENCES, &WHICH));
+    if references.is_empty() {
+        return Err(OperationError::PointsOnly);
+    }
     let request = FloatRequest {
         degree: given_count(values, &DEGREE),
         tolerance: given(values, &TOLERANCE),
