@@ -33,8 +33,13 @@ pub struct WrittenBack {
 pub enum Rest {
     /// It stays as it was, to the byte.
     Kept,
-    /// It is lost; the reason, if the format would allow to keep it.
-    Lost(Option<String>),
+    /// It is lost.
+    Lost {
+        /// The reason, if the format would allow to keep it.
+        why: Option<String>,
+        /// What it is, with counts, as far as it is known.
+        what: Vec<String>,
+    },
 }
 
 /// A curve or a reference of a document.
@@ -74,13 +79,23 @@ impl Original {
                 Ok(kept(bytes, losses))
             }
             other => {
-                let reason = other.and_then(Result::err);
+                let why = other.and_then(Result::err);
+                let what = self.others();
                 Ok(WrittenBack {
                     export: self.format.write_back(document)?,
-                    rest: Rest::Lost(reason),
+                    rest: Rest::Lost { why, what },
                 })
             }
         }
+    }
+
+    /// What the file has beside curves, with counts.
+    fn others(&self) -> Vec<String> {
+        let drawing = self.format.draw(&self.bytes).unwrap_or_default();
+        let others = drawing.other.iter();
+        others
+            .map(|other| format!("{} {}", other.count, other.kind))
+            .collect()
     }
 
     /// Write the changes into the bytes; `None` if the format has no way to do so, the reason if they cannot be.

@@ -7,6 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::document::Document;
 use crate::io::{Format, Original, Rest, WriteError, WrittenBack, formats};
 
+/// So many kinds of what is lost are named, and one more where that is the last.
+const NAMED: usize = 5;
+
 /// The file that the program was started to edit.
 #[derive(Clone, Debug)]
 pub struct EditedFile {
@@ -61,7 +64,10 @@ impl EditedFile {
             Some(original) => original.written_back(document),
             None => Ok(WrittenBack {
                 export: format.write_back(document)?,
-                rest: Rest::Lost(None),
+                rest: Rest::Lost {
+                    why: None,
+                    what: Vec::new(),
+                },
             }),
         }
     }
@@ -90,11 +96,12 @@ impl EditedFile {
             return Vec::new();
         }
         let rest = match rest {
-            Rest::Lost(why) if format.draws() && !self.is_alone => {
+            Rest::Lost { why, what } if format.draws() && !self.is_alone => {
                 let why = why.as_ref().map(|why| format!(": {why}"));
                 let why = why.map(|why| format!("The {format} cannot be changed in place{why}."));
                 let lost = format!(
-                    "The {format} holds the curves alone: other entities, layers and styles are lost."
+                    "Once saved, the {format} holds the curves alone: {} and styles are lost.",
+                    listed(what)
                 );
                 why.into_iter().chain([lost]).collect()
             }
@@ -105,5 +112,17 @@ impl EditedFile {
         let lines = losses.to_string();
         let lines = lines.lines().map(str::to_owned);
         rest.into_iter().chain(lines).collect()
+    }
+}
+
+/// List what is lost, the first few by name.
+fn listed(what: &[String]) -> String {
+    match (what, what.get(NAMED..)) {
+        ([], _) => "other entities".to_owned(),
+        (_, Some([_, _, ..])) => {
+            let others = what.len() - NAMED;
+            format!("{} and {others} other kinds", what[..NAMED].join(", "))
+        }
+        _ => what.join(", "),
     }
 }
