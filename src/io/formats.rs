@@ -60,7 +60,13 @@ pub fn exporters() -> Vec<Exporter> {
 pub fn of_text(text: &str) -> Option<&'static Format> {
     let text = text.trim_start();
     let mut lines = text.lines().map(str::trim);
-    let extension = match [lines.next()?, lines.next().unwrap_or_default()] {
+    let mut first = lines.next()?;
+    // Comments of DXF.
+    while first == "999" {
+        lines.next();
+        first = lines.next()?;
+    }
+    let extension = match [first, lines.next().unwrap_or_default()] {
         ["0", "SECTION"] => "dxf",
         [first, _] if first.starts_with("ISO-10303-21") => "step",
         [first, _] if first.starts_with('<') => {
