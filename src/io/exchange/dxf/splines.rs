@@ -95,6 +95,9 @@ fn controlled(record: &Record<'_>, lists: Lists, notes: &mut Notes) -> Result<Nu
         .ok()
         .filter(|degree| (1..count).contains(degree));
     let Some(degree) = degree else {
+        if said == 0 {
+            return Err(record.trouble("its degree is missing".to_owned()));
+        }
         return Err(record.trouble(format!("degree {said} does not fit {count} control points")));
     };
     let mut weights = checked_weights(record, weights, count)?;
