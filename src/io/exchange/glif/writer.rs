@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 
-use super::super::splines::{Piece, described, pieces};
+use super::super::splines::{Piece, described, hull, pieces};
 use crate::io::exchange::drawing::{Drawing, Item, Shape, Unreadable};
 use crate::io::xml::escaped;
 
@@ -105,6 +105,9 @@ impl Contour {
 /// The contours along some shapes, or what they are that a glyph cannot hold.
 pub(super) fn contours(shapes: &[Shape]) -> Result<Vec<Contour>, String> {
     let mut contours: Vec<Contour> = Vec::new();
+    if shapes.iter().flat_map(hull).any(|point| point.z != 0.0) {
+        return Err("a curve outside of the plane z = 0".to_owned());
+    }
     for shape in shapes {
         for piece in pieces(shape)? {
             add(&mut contours, &piece)?;
@@ -114,9 +117,6 @@ pub(super) fn contours(shapes: &[Shape]) -> Result<Vec<Contour>, String> {
     for (point, _) in contours.iter().flat_map(|it| &it.points) {
         if !point.is_finite() {
             return Err("a curve with numbers that are not finite".to_owned());
-        }
-        if point.z != 0.0 {
-            return Err("a curve outside of the plane z = 0".to_owned());
         }
     }
     Ok(contours)
