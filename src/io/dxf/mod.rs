@@ -187,18 +187,20 @@ fn report_reference(reference: &Reference, layer: &str, losses: &mut LossReport)
     losses.add_point_weights(reference);
 }
 
-/// Report names that its layer does not hold. Names that readers make up are no loss.
+/// Report names that its layer does not hold.
 fn report_names(name: &str, group: &Group, layer: &str, losses: &mut LossReport) {
-    let mut lose = |loss| losses.losses.push((name.to_owned(), loss));
-    let is_made_up = Kind::is_made_up(name);
+    let written = layer.to_owned();
+    let lost = match group.is_none() {
+        false => Some(Loss::NoName),
+        true if Kind::is_made_up(name) => Some(Loss::Unnamed),
+        true => (layer != name).then(|| Loss::Name {
+            written: written.clone(),
+        }),
+    };
+    let lost = lost.map(|loss| (name.to_owned(), loss));
+    losses.losses.extend(lost);
     if !group.is_none() {
-        if !is_made_up {
-            lose(Loss::NoName);
-        }
-        losses.add_group(name, group, Group::new([layer.to_owned()]));
-    } else if layer != name && !is_made_up {
-        let written = layer.to_owned();
-        lose(Loss::Name { written });
+        losses.add_group(name, group, Group::new([written]));
     }
 }
 

@@ -431,3 +431,42 @@ fn round_ellipses_of_the_plane_are_circles_and_arcs() {
         }
     }
 }
+
+#[test]
+fn what_has_neither_a_name_nor_a_group_is_on_layer_0() {
+    let circle = || ReferenceCurve::from_text("circle").unwrap();
+    let mut hidden = Reference::new("circle 2", circle());
+    hidden.visible = false;
+    let references = [
+        Reference::new("circle 1", circle()),
+        hidden,
+        Reference::new("circle 3", circle()).in_group(Group::new(["Deck", "polyline 1"])),
+        Reference::new("rim", circle()),
+    ];
+    let curves = ["spline 1", "spline 2"].map(planar);
+    let document = Document::from_curves(curves).with_references(references);
+    let export = DXF.write(&document, None).unwrap();
+    let drawing = exchange::dxf::read(&export.bytes).unwrap();
+    let circles = drawing.items.iter().filter(|it| it.kind == Kind::Circle);
+    let found: Vec<(String, bool)> = circles.map(|it| (it.group.join("/"), it.hidden)).collect();
+    let expected = [
+        ("0", false),
+        ("0 hidden", true),
+        ("Deck", false),
+        ("rim", false),
+    ];
+    assert_eq!(
+        found,
+        expected.map(|(name, hidden)| (name.to_owned(), hidden))
+    );
+    let splines = drawing.items.iter().filter(|it| it.kind == Kind::Spline);
+    assert!(splines.into_iter().all(|it| *it.group == ["0"]));
+    let told = export.losses.to_string();
+    let unnamed =
+        "“spline 1”, “spline 2”, “circle 1” and 1 other: the name isn't stored in the DXF";
+    assert!(told.contains(unnamed), "{told}");
+    assert!(
+        told.contains("“circle 3”: the group is written as “Deck”"),
+        "{told}"
+    );
+}
