@@ -33,13 +33,8 @@ pub struct WrittenBack {
 pub enum Rest {
     /// It stays as it was, to the byte.
     Kept,
-    /// It is lost.
-    Lost {
-        /// The reason, if the format would allow to keep it.
-        why: Option<String>,
-        /// What it is, with counts, as far as it is known.
-        what: Vec<String>,
-    },
+    /// It is lost; the reason, if the format would allow to keep it.
+    Lost(Option<String>),
 }
 
 /// A curve or a reference of a document.
@@ -79,18 +74,17 @@ impl Original {
                 Ok(kept(bytes, losses))
             }
             other => {
-                let why = other.and_then(Result::err);
-                let what = self.others();
+                let reason = other.and_then(Result::err);
                 Ok(WrittenBack {
                     export: self.format.write_back(document)?,
-                    rest: Rest::Lost { why, what },
+                    rest: Rest::Lost(reason),
                 })
             }
         }
     }
 
-    /// What the file has beside curves, with counts.
-    fn others(&self) -> Vec<String> {
+    /// List what the file has beside curves, with counts.
+    pub fn others(&self) -> Vec<String> {
         let drawing = self.format.draw(&self.bytes).unwrap_or_default();
         let others = drawing.other.iter();
         others

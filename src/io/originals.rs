@@ -291,10 +291,7 @@ fn what_cannot_be_changed_in_place_says_why() {
     let document = moved(&document, "rim", DVec3::X);
     let written = original.written_back(&document).expect("bytes");
     let why = "“rim” is drawn in several places by one element".to_owned();
-    let Rest::Lost { why: told, .. } = written.rest else {
-        panic!("nothing is lost");
-    };
-    assert_eq!(told, Some(why));
+    assert_eq!(written.rest, Rest::Lost(Some(why)));
 
     let latin =
         "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0C1 2 3 4 5 0' id='\u{e9}'/></svg>";
@@ -306,10 +303,7 @@ fn what_cannot_be_changed_in_place_says_why() {
     let document = moved(&document, "\u{e9}", DVec3::X);
     let written = original.written_back(&document).expect("bytes");
     let why = "the file is damaged, or its text is not UTF-8".to_owned();
-    let Rest::Lost { why: told, .. } = written.rest else {
-        panic!("nothing is lost");
-    };
-    assert_eq!(told, Some(why));
+    assert_eq!(written.rest, Rest::Lost(Some(why)));
 }
 
 #[test]
@@ -421,4 +415,11 @@ fn curves_in_space_are_left_out_of_planar_formats_by_name() {
             "{told}"
         );
     }
+}
+
+#[test]
+fn what_a_drawing_has_beside_curves_is_counted() {
+    let text = "0\nSECTION\n2\nENTITIES\n0\nLINE\n10\n0\n20\n0\n11\n1\n21\n0\n0\nHATCH\n0\nTEXT\n0\nHATCH\n0\nENDSEC\n0\nEOF\n";
+    let (original, _) = opened("dxf", text);
+    assert_eq!(original.others(), ["2 HATCH", "1 TEXT"]);
 }

@@ -212,7 +212,7 @@ fn what_is_not_edited_in_a_drawing_keeps_its_bytes() {
                 };
                 let why = match written.rest {
                     Rest::Kept => None,
-                    Rest::Lost { why, .. } => Some(why.expect("a reason")),
+                    Rest::Lost(why) => Some(why.expect("a reason")),
                 };
                 if let Some(why) = why {
                     let kind = why.split('”').next_back().unwrap_or_default();

@@ -64,10 +64,7 @@ impl EditedFile {
             Some(original) => original.written_back(document),
             None => Ok(WrittenBack {
                 export: format.write_back(document)?,
-                rest: Rest::Lost {
-                    why: None,
-                    what: Vec::new(),
-                },
+                rest: Rest::Lost(None),
             }),
         }
     }
@@ -96,12 +93,14 @@ impl EditedFile {
             return Vec::new();
         }
         let rest = match rest {
-            Rest::Lost { why, what } if format.draws() && !self.is_alone => {
+            Rest::Lost(why) if format.draws() && !self.is_alone => {
+                let original = self.original.as_ref();
+                let others = original.map(|original| original.others());
                 let why = why.as_ref().map(|why| format!(": {why}"));
                 let why = why.map(|why| format!("The {format} cannot be changed in place{why}."));
                 let lost = format!(
                     "Once saved, the {format} holds the curves alone: {} and styles are lost.",
-                    listed(what)
+                    listed(&others.unwrap_or_default())
                 );
                 why.into_iter().chain([lost]).collect()
             }
@@ -115,7 +114,7 @@ impl EditedFile {
     }
 }
 
-/// List what is lost, the first few by name.
+/// List what is lost, the first few kinds by name.
 fn listed(what: &[String]) -> String {
     match (what, what.get(NAMED..)) {
         ([], _) => "other entities".to_owned(),
@@ -124,5 +123,26 @@ fn listed(what: &[String]) -> String {
             format!("{} and {others} other kinds", what[..NAMED].join(", "))
         }
         _ => what.join(", "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_lost_is_named_as_far_as_it_is_short() {
+        let kinds = |count: usize| -> Vec<String> {
+            (1..=count)
+                .map(|index| format!("{index} K{index}"))
+                .collect()
+        };
+        assert_eq!(listed(&[]), "other entities");
+        assert_eq!(listed(&kinds(2)), "1 K1, 2 K2");
+        assert_eq!(listed(&kinds(6)), "1 K1, 2 K2, 3 K3, 4 K4, 5 K5, 6 K6");
+        assert_eq!(
+            listed(&kinds(7)),
+            "1 K1, 2 K2, 3 K3, 4 K4, 5 K5 and 2 other kinds"
+        );
     }
 }
