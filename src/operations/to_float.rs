@@ -79,13 +79,14 @@ pub static OPERATION: Operation = Operation {
     inputs: Inputs::References,
     each: false,
     parameters: &[REFERENCES, TOLERANCE, DEGREE, KEEP, TIME_LIMIT],
-    check: |input| match converted(input, Which::All).is_empty()
-        && converted(input, Which::Chosen).is_empty()
+    check: |input| match WHICH
+        .iter()
+        .any(|which| !converted(input, *which).is_empty())
     {
-        true => Err(OperationError::Inputs {
+        true => Ok(()),
+        false => Err(OperationError::Inputs {
             needed: Inputs::References,
         }),
-        false => Ok(()),
     },
     unused: |_| &[],
     run,

@@ -1,10 +1,10 @@
 //! Approximations of references and curves.
 
-use std::sync::mpsc;
+use std::sync::{Arc, mpsc};
 use std::thread;
 
 use batten::document::{Curve, Document, Group, Reference};
-use batten::geometry::references::{Nurbs, ReferenceCurve, ReferenceForm};
+use batten::geometry::references::{Nurbs, PointList, ReferenceCurve, ReferenceForm};
 use batten::geometry::{FloatPolygon, ParametricCurve, Progress};
 use batten::operations::{Deviation, Operands, OperationError, Outcome, Report, Value, find};
 use glam::DVec3;
@@ -547,6 +547,26 @@ fn drawing() -> Document {
         in_deck("port", circle),
         Reference::new("chine", spline(3)),
     ])
+}
+
+#[test]
+fn a_line_that_is_chosen_keeps_the_others_from_nothing() {
+    let line = PointList::new(vec![DVec3::ZERO, DVec3::X]).expect("points");
+    let line = ReferenceCurve::of(ReferenceForm::Points(line)).expect("a line");
+    let smooth = drawing()
+        .references()
+        .map(|(_, it)| it.clone())
+        .collect::<Vec<_>>();
+    let line = Arc::new(Reference::new("line", line));
+    let document = Document::default().with_references([vec![line], smooth].concat());
+    let (_, after) = converted(&document, &[("references", Value::Choice(2))]);
+    assert_eq!((after.curves().count(), after.references().count()), (4, 1));
+    let operation = find("to-float").expect("it is there");
+    let chosen = document.references().next().map(|(id, _)| id);
+    let input = Operands::choose(&document, operation.inputs, chosen, &[]).expect("references");
+    let values = operation.values(&input, []).expect("values");
+    let refused = operation.run(&input, &values, &Progress::default());
+    assert!(matches!(refused, Err(OperationError::PointsOnly)));
 }
 
 #[test]
