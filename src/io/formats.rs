@@ -144,6 +144,7 @@ mod tests {
     use crate::geometry::expressions::LengthUnit;
     use crate::geometry::references::{PointList, ReferenceCurve, ReferenceForm};
     use crate::io::Loss;
+    use crate::io::loss::DocumentLoss;
 
     #[test]
     fn the_extension_tells_the_format_in_either_case() {
@@ -200,6 +201,36 @@ mod tests {
                 "GPX files can be read but not written: the formats that can be written are {writable}"
             ),
         );
+    }
+
+    #[test]
+    fn a_drawing_on_the_clipboard_may_begin_with_comments() {
+        let name = |text: &str| of_text(text).map(|format| format.name);
+        let drawing = "0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n";
+        assert_eq!(name(drawing), Some("DXF"));
+        let comments = format!("999\nmade by hand\n999\n0\n{drawing}");
+        assert_eq!(name(&comments), Some("DXF"));
+        assert_eq!(name("999\n998\n997 1\n"), None);
+    }
+
+    #[test]
+    fn a_unit_that_a_format_has_not_is_told() {
+        let polygon = FloatPolygon::planar(2, &[(0.0, 0.0), (1.0, 2.0), (3.0, 0.0)]);
+        let curve = Curve::new("sheer", polygon.expect("a polygon"));
+        let document = Document::from_curves([curve]);
+        let inches = document.clone().with_unit(Some(LengthUnit::Inch));
+        for (extension, without, with) in [
+            ("glif", None, Some(DocumentLoss::Unit)),
+            ("step", Some(DocumentLoss::NoUnit), None),
+            ("dxf", None, None),
+        ] {
+            let format = find(extension).expect("a format");
+            for (document, expected) in [(&document, without), (&inches, with)] {
+                let export = format.write(document, None).expect("a file");
+                let found = export.losses.of_document;
+                assert_eq!(found, Vec::from_iter(expected), "{extension}");
+            }
+        }
     }
 
     #[test]

@@ -119,6 +119,8 @@ fn numbers_that_make_no_spline_are_refused() {
         few,
         "line 6: SPLINE skipped: degree 3 does not fit 3 control points"
     );
+    let without = remark(&format!("0 SPLINE; {}", control(&[0.0, 1.0, 2.0])));
+    assert_eq!(without, "line 6: SPLINE skipped: its degree is missing");
 }
 
 #[test]
