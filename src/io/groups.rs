@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::exchange::drawing::{Drawing, Item, Kind, Shape, Space};
+use super::exchange::drawing::{Drawing, Item, Kind, Shape};
 use super::formats;
 use super::{Loss, Reading};
 use crate::document::{Colour, Curve, Document, Group, Reference};
@@ -136,15 +136,10 @@ fn item(kind: Kind, path: &[&str], name: Option<&str>, shapes: usize) -> Item {
         closed: false,
     };
     Item {
-        kind,
-        shapes: (0..shapes).map(line).collect(),
         group: path.iter().map(|name| (*name).to_owned()).collect(),
         name: name.map(str::to_owned),
-        block: None,
-        colour: None,
-        hidden: false,
-        space: Space::Model,
         at: 1,
+        ..Item::new(kind, (0..shapes).map(line).collect())
     }
 }
 

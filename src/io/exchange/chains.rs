@@ -183,20 +183,14 @@ fn ends(shape: &Shape) -> Option<[DVec3; 2]> {
 mod tests {
     use super::*;
     use crate::document::Document;
-    use crate::io::exchange::drawing::{Conic, Drawing, Nurbs, Space};
+    use crate::io::exchange::drawing::{Conic, Drawing, Nurbs};
     use crate::io::formats;
 
     fn item(name: Option<&str>, kind: Kind, shapes: Vec<Shape>) -> Item {
         Item {
-            kind,
-            shapes,
             group: ["Deck".to_owned()].into(),
             name: name.map(str::to_owned),
-            block: None,
-            colour: None,
-            hidden: false,
-            space: Space::Model,
-            at: 1,
+            ..Item::new(kind, shapes)
         }
     }
 

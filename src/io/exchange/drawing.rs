@@ -87,6 +87,23 @@ pub enum Kind {
     Point,
 }
 
+impl Item {
+    /// Make an item of its own, with neither a name nor a group nor a colour.
+    pub fn new(kind: Kind, shapes: Vec<Shape>) -> Self {
+        Self {
+            kind,
+            shapes,
+            group: Arc::default(),
+            name: None,
+            block: None,
+            colour: None,
+            hidden: false,
+            space: Space::Model,
+            at: 0,
+        }
+    }
+}
+
 impl Kind {
     /// Every kind.
     pub const ALL: [Self; 10] = [
@@ -414,6 +431,27 @@ impl Drawing {
                 count: 1,
                 at,
             }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Kind;
+
+    #[test]
+    fn names_that_are_made_up_have_a_kind_and_numbers() {
+        for name in [
+            Kind::Line.numbered(7),
+            "polycurve 25".to_owned(),
+            "path 3 2".to_owned(),
+        ] {
+            assert!(Kind::is_made_up(&name), "{name}");
+        }
+        for name in [
+            "line", "line ", "line a", "hull 1", "line 1 b", "1 line", "lines 1",
+        ] {
+            assert!(!Kind::is_made_up(name), "{name}");
         }
     }
 }

@@ -452,15 +452,10 @@ mod tests {
 
     fn item(layer: &[&str], kind: Kind, space: Space, shape: Shape) -> Item {
         Item {
-            kind,
-            shapes: vec![shape],
             group: layer.iter().map(|it| (*it).to_owned()).collect(),
-            name: None,
-            block: None,
-            colour: None,
-            hidden: false,
             space,
             at: 7,
+            ..Item::new(kind, vec![shape])
         }
     }
 

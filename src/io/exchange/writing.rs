@@ -1,10 +1,8 @@
 //! What a document becomes in a format of another program.
 
-use std::sync::Arc;
-
 use super::chains;
 use super::cubics::Cubics;
-use super::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
+use super::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape};
 use crate::document::{Curve, Document, Group, Reference};
 use crate::geometry::PolygonKind;
 use crate::geometry::references::{Nurbs as KnownNurbs, ReferenceCurve, ReferenceForm};
@@ -244,15 +242,8 @@ fn drawn(nurbs: &KnownNurbs) -> Nurbs {
 
 fn named(name: &str, kind: Kind, shape: Shape) -> Item {
     Item {
-        kind,
-        shapes: vec![shape],
-        group: Arc::default(),
         name: Some(name.to_owned()),
-        block: None,
-        colour: None,
-        hidden: false,
-        space: Space::Model,
-        at: 0,
+        ..Item::new(kind, vec![shape])
     }
 }
 

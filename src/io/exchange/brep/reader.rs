@@ -2,7 +2,6 @@
 
 use std::collections::HashSet;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -351,15 +350,9 @@ impl Reader {
 
     fn keep(&mut self, kind: Kind, shapes: Vec<Shape>, space: Space, line: u64) {
         let item = Item {
-            kind,
-            shapes,
-            group: Arc::default(),
-            name: None,
-            block: None,
-            colour: None,
-            hidden: false,
             space,
             at: line,
+            ..Item::new(kind, shapes)
         };
         if self.spending.keep(&item, self.drawing.items.last()) {
             self.drawing.items.push(item);

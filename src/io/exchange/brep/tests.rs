@@ -1,7 +1,5 @@
 //! Tests with small files and closed forms.
 
-use std::sync::Arc;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
@@ -193,17 +191,7 @@ fn edges_of_faces_are_boundaries_and_drawn_once() {
 }
 
 fn item(kind: Kind, shapes: Vec<Shape>) -> Item {
-    Item {
-        kind,
-        shapes,
-        group: Arc::default(),
-        name: None,
-        block: None,
-        colour: None,
-        hidden: false,
-        space: Space::Model,
-        at: 0,
-    }
+    Item::new(kind, shapes)
 }
 
 fn samples() -> Drawing {

@@ -11,7 +11,7 @@ use super::super::remarks::Remarks;
 use super::super::spending::Spending;
 use super::super::splines::{checked, clamped_knots};
 use super::units::UNITS;
-use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Space, Unreadable};
+use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Unreadable};
 use crate::io::exchange::short_names::{DEEPEST, short, short_path};
 
 /// Read all curves.
@@ -90,15 +90,10 @@ impl<'d> File<'d> {
         });
         match result {
             Ok((name, group, spline)) => self.add(Item {
-                kind: Kind::Spline,
-                shapes: vec![Shape::Nurbs(spline)],
                 group: self.drawing.path(&group),
                 name,
-                block: None,
-                colour: None,
-                hidden: false,
-                space: Space::Model,
                 at: line,
+                ..Item::new(Kind::Spline, vec![Shape::Nurbs(spline)])
             }),
             Err((line, reason)) => self
                 .remarks

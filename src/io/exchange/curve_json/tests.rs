@@ -1,25 +1,16 @@
-use std::sync::Arc;
-
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 use glam::DVec3;
 
 use super::{read, write};
-use crate::io::exchange::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
+use crate::io::exchange::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape};
 
 const LINE: &str = r#"{"degree": 1, "knots": [0, 0, 1, 1], "points": [[0, 1], [2, 3, 4]]}"#;
 
 fn item(shape: Shape) -> Item {
     Item {
-        kind: Kind::Spline,
-        shapes: vec![shape],
-        group: Arc::default(),
-        name: None,
-        block: None,
-        colour: None,
-        hidden: false,
-        space: Space::Model,
         at: 4,
+        ..Item::new(Kind::Spline, vec![shape])
     }
 }
 

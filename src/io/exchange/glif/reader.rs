@@ -1,13 +1,11 @@
 //! Reads glyphs.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 use roxmltree::{Document, Node, NodeId};
 
 use super::super::pieces::Pieces;
 use super::super::remarks::Remarks;
-use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Space, Unreadable};
+use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Unreadable};
 use crate::io::exchange::short_names::short;
 use crate::io::xml::Source;
 
@@ -121,15 +119,9 @@ impl Reader<'_> {
         }
         self.places.push(node.id());
         self.drawing.items.push(Item {
-            kind: Kind::Path,
-            shapes,
-            group: Arc::default(),
             name: self.name.map(short),
-            block: None,
-            colour: None,
-            hidden: false,
-            space: Space::Model,
             at: self.source.line_of(node),
+            ..Item::new(Kind::Path, shapes)
         });
     }
 

@@ -1,11 +1,10 @@
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use glam::DVec3;
 
 use super::{read, rewriting, write};
 use crate::io::exchange::changes::{Changes, ItemChange};
-use crate::io::exchange::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
+use crate::io::exchange::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape};
 use crate::io::loss::{Loss, LossReport};
 
 fn glyph(outline: &str) -> Drawing {
@@ -255,15 +254,9 @@ fn what_glif_cannot_hold_is_refused_by_name() {
     ];
     for (shape, reason) in cases {
         let item = Item {
-            kind: Kind::Spline,
-            shapes: vec![shape],
-            group: Arc::default(),
             name: Some("keel".to_owned()),
-            block: None,
-            colour: None,
-            hidden: false,
-            space: Space::Model,
             at: 1,
+            ..Item::new(Kind::Spline, vec![shape])
         };
         let drawing = Drawing {
             items: vec![item],

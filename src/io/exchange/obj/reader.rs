@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::super::remarks::Remarks;
 use super::curves::Curve;
 use super::words::{DEFAULT_GROUP, UNIT};
-use crate::io::exchange::drawing::{Drawing, Item, Kind, Shape, Space, Unreadable};
+use crate::io::exchange::drawing::{Drawing, Item, Kind, Shape, Unreadable};
 use crate::io::exchange::short_names::{short, short_path};
 
 /// The bytes of a file that an item takes: points take two, but a hundred times as much memory.
@@ -294,15 +294,10 @@ impl Reader {
 
     fn push(&mut self, kind: Kind, shape: Shape, at: u64) {
         let item = Item {
-            kind,
-            shapes: vec![shape],
             group: Arc::clone(&self.group),
             name: self.name.clone(),
-            block: None,
-            colour: None,
-            hidden: false,
-            space: Space::Model,
             at,
+            ..Item::new(kind, vec![shape])
         };
         let texts = item.names_memory(self.drawing.items.last());
         if self.spend(1 + texts / NAME_BYTES) {

@@ -1,11 +1,9 @@
-use std::sync::Arc;
-
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
 use super::{read, write};
-use crate::io::exchange::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
+use crate::io::exchange::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape};
 
 const VERTICES: &str = "v 0 0 0\nv 1 0 0 2\nv 1 1 0.5\nv 2 1 0 1 0 0\n";
 
@@ -270,17 +268,7 @@ fn sample() -> Drawing {
     ];
     let mut items: Vec<_> = shapes
         .into_iter()
-        .map(|(kind, shape)| Item {
-            kind,
-            shapes: vec![shape],
-            group: Arc::default(),
-            name: None,
-            block: None,
-            colour: None,
-            hidden: false,
-            space: Space::Model,
-            at: 0,
-        })
+        .map(|(kind, shape)| Item::new(kind, vec![shape]))
         .collect();
     items[0].name = Some("the keel".to_owned());
     items[1].name = Some("the keel".to_owned());

@@ -9,20 +9,10 @@ use glam::{DVec3, dvec3};
 use super::evaluation::ends;
 use super::tests::{file, set};
 use super::{Protocol, read, write};
-use crate::io::exchange::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape, Space};
+use crate::io::exchange::drawing::{Conic, Drawing, Item, Kind, Nurbs, Shape};
 
 fn item(kind: Kind, shape: Shape) -> Item {
-    Item {
-        kind,
-        shapes: vec![shape],
-        group: Arc::default(),
-        name: None,
-        block: None,
-        colour: None,
-        hidden: false,
-        space: Space::Model,
-        at: 0,
-    }
+    Item::new(kind, vec![shape])
 }
 
 fn spline(degree: usize, count: usize) -> Nurbs {

@@ -1,5 +1,3 @@
-use std::sync::Arc;
-
 use std::f64::consts::TAU;
 
 use glam::DVec3;
@@ -30,17 +28,7 @@ impl Random {
 }
 
 fn item(kind: Kind, shapes: Vec<Shape>) -> Item {
-    Item {
-        kind,
-        shapes,
-        group: Arc::default(),
-        name: None,
-        block: None,
-        colour: None,
-        hidden: false,
-        space: Space::Model,
-        at: 0,
-    }
+    Item::new(kind, shapes)
 }
 
 fn nurbs(random: &mut Random, degree: usize, count: usize, is_rational: bool) -> Nurbs {

@@ -4,12 +4,10 @@ mod paths;
 mod tree;
 mod writer;
 
-use std::sync::Arc;
-
 use glam::DVec3;
 
 use super::{read, write};
-use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape, Space};
+use crate::io::exchange::drawing::{Drawing, Item, Kind, Nurbs, Shape};
 
 fn drawing(attributes: &str, content: &str) -> Drawing {
     let text = format!(
@@ -58,15 +56,8 @@ fn bezier(degree: usize, points: &[(f64, f64)]) -> Shape {
 
 fn item(shapes: Vec<Shape>) -> Item {
     Item {
-        kind: Kind::Path,
-        shapes,
-        group: Arc::default(),
-        name: None,
-        block: None,
-        colour: None,
-        hidden: false,
-        space: Space::Model,
         at: 1,
+        ..Item::new(Kind::Path, shapes)
     }
 }
 

@@ -6,15 +6,9 @@ use crate::io::exchange::drawing::Unreadable;
 
 fn item(kind: Kind, shapes: Vec<Shape>) -> Item {
     Item {
-        kind,
-        shapes,
         group: vec!["Batten".to_owned()].into(),
-        name: None,
-        block: None,
         colour: Some([10, 20, 30]),
-        hidden: false,
-        space: Space::Model,
-        at: 0,
+        ..Item::new(kind, shapes)
     }
 }
 
