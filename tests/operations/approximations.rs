@@ -525,12 +525,13 @@ fn spline(middle: usize) -> ReferenceCurve {
     ReferenceCurve::of(form).expect("a reference")
 }
 
-/// Convert references of a document, with the first one chosen.
+/// Convert references of a document, with the first one chosen, in as much time as a slow machine needs.
 fn converted(document: &Document, given: &[(&str, Value)]) -> (Outcome, Document) {
     let operation = find("to-float").expect("it is there");
     let chosen = document.references().next().map(|(id, _)| id);
     let input = Operands::choose(document, operation.inputs, chosen, &[]).expect("references");
-    let values = operation.values(&input, given.iter().cloned());
+    let patience = [("time-limit", Value::List(vec![600.0]))];
+    let values = operation.values(&input, patience.iter().chain(given).cloned());
     let outcome = operation.run(&input, &values.expect("values"), &Progress::default());
     let outcome = outcome.expect("curves");
     let after = outcome.applied_to(document).expect("edits");
